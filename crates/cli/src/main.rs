@@ -1,0 +1,2 @@
+//! The `virtwall` command.
+fn main() {}
