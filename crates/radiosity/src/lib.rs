@@ -3,7 +3,44 @@
 //! Knows nothing of processors, messages or time.
 
 mod bounds;
+mod camera;
+mod canvas;
+mod clean;
+mod clip;
+mod environment;
+mod facets;
+mod grid;
+mod hemisphere;
+mod light;
+mod mask;
+mod mtl;
+mod obj;
+mod picture;
 mod scene;
+mod scene_error;
+mod shoot;
+mod solve;
+mod space;
+mod text;
+mod warning;
+mod work;
 
 pub use bounds::Bounds;
+pub use camera::Camera;
+pub use environment::{LocalEnvironment, Patch, PatchSize};
+pub use facets::{Facets, Ray};
+pub use glam;
+pub use grid::{Block, Grid, Passage, Side};
+pub use hemisphere::{Hemisphere, HemisphereError, HemisphereKind, MOST_PIXELS};
+pub use light::Light;
+pub use mask::Mask;
+pub use mtl::DEFAULT_REFLECTANCE;
+pub use obj::load_obj;
+pub use picture::{Exposure, Picture, PictureError, PictureOptions, headlight, render};
 pub use scene::{Face, Material, Plane, Polygon, Rgb, Scene};
+pub use scene_error::SceneError;
+pub use shoot::{End, Outgoing, Shot, Source, cast, shoot};
+pub use solve::solve;
+pub use space::Space;
+pub use warning::{Warning, WarningKind, Warnings};
+pub use work::{Operation, Work};

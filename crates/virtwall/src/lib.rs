@@ -1,1 +1,34 @@
-//! TODO
+//! The programs of Inria RR-3008: decomposition, compute node (Figure 9), service node (Figure 6),
+//! termination detection, wire format; on a simulated machine or on threads.
+//!
+//! Knows nothing of files, plots or the command line.
+
+mod compute_node;
+mod decomposition;
+mod kept_shots;
+mod message;
+mod outcome;
+mod problem;
+mod process;
+mod queue;
+mod region;
+mod ring;
+mod rules;
+mod run;
+mod service_node;
+mod simulation;
+mod threads;
+
+pub use compute_node::{ComputeNode, compute_node};
+pub use decomposition::{Decomposition, Mapping};
+pub use kept_shots::KeptShots;
+pub use message::{DecodeError, Message, Parcel, PatchUpdate, Sums};
+pub use outcome::{EnergyLedger, Ending, NodeReport, Outcome};
+pub use problem::{Problem, ProblemError, ProblemOptions};
+pub use process::Process;
+pub use region::Region;
+pub use rules::{Rules, Selection, Ties};
+pub use run::{Run, RunError};
+pub use service_node::{Collection, service_node};
+pub use simulation::simulate;
+pub use threads::run_on_threads;

@@ -1,0 +1,81 @@
+//! What processes and callbacks may ask of the simulation.
+
+use std::future::Future;
+use std::rc::Rc;
+
+use crate::event::Event;
+use crate::process::{Process, ProcessId};
+use crate::simulation::{Core, Observation};
+use crate::time::{Duration, Time};
+use crate::wait::{Reason, Ticket, Wait};
+
+/// Access to a running simulation; cheap to clone and to move into a process.
+#[derive(Clone)]
+pub struct Handle(pub(crate) Rc<Core>);
+
+impl Handle {
+    /// The present virtual time.
+    pub fn now(&self) -> Time {
+        self.0.now.get()
+    }
+
+    /// Creates a process; an event at the present time starts it. Only the waits of this crate
+    /// resume it: there is no waker behind any other future.
+    pub fn spawn(
+        &self,
+        name: impl Into<String>,
+        future: impl Future<Output = ()> + 'static,
+    ) -> ProcessId {
+        let mut processes = self.0.processes.borrow_mut();
+        let id = ProcessId(processes.len());
+        let name = name.into().into();
+        processes.push(Process { name, body: Some(Box::pin(future)), tickets: Vec::new() });
+        self.schedule(self.now(), Event::Start(id));
+        id
+    }
+
+    /// Waits for a span that begins with this call. A span of zero still lets the other events of
+    /// the moment that are due before it go first.
+    pub fn sleep(&self, span: Duration) -> impl Future<Output = ()> + use<> {
+        self.sleep_until(self.now() + span)
+    }
+
+    /// Waits until a moment; one that is past counts as the present.
+    pub fn sleep_until(&self, time: Time) -> impl Future<Output = ()> + use<> {
+        let wait = Wait { handle: self.clone(), signal: None, until: Some(time), ticket: None };
+        async move {
+            wait.await;
+        }
+    }
+
+    /// Calls `action` at a moment; one that is past counts as the present. The call is an event of
+    /// its own, never made from within `at`.
+    pub fn at(&self, time: Time, action: impl FnOnce() + 'static) {
+        self.schedule(time, Event::Call(Box::new(action)));
+    }
+
+    /// Has every step of every process reported, as (time, process, what happened), to `observer`,
+    /// in place of an earlier observer.
+    pub fn set_observer(&self, observer: impl FnMut(Time, &str, Observation) + 'static) {
+        *self.0.observer.borrow_mut() = Some(Box::new(observer));
+    }
+
+    /// Schedules an event, not earlier than now.
+    pub(crate) fn schedule(&self, time: Time, event: Event) {
+        self.0.queue.borrow_mut().schedule(time.max(self.now()), event);
+    }
+
+    /// A ticket for the process that runs now.
+    ///
+    /// # Panics
+    /// When no process runs: a wait of this crate was polled by a foreign executor.
+    pub(crate) fn issue_ticket(&self, on: Reason) -> Rc<Ticket> {
+        let process = self.0.current.get();
+        let process = process.expect("only processes of the simulation await its futures");
+        let ticket = Rc::new(Ticket { process, on, outcome: Default::default() });
+        if let Some(process) = self.0.processes.borrow_mut().get_mut(process.0) {
+            process.tickets.push(Rc::downgrade(&ticket));
+        }
+        ticket
+    }
+}

@@ -1,0 +1,37 @@
+//! The end of a run that is none: processes wait for what nobody will do.
+
+use std::error::Error;
+use std::fmt;
+
+use crate::time::Time;
+
+/// No event is left, and processes still wait.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Stalled {
+    /// When the last event happened.
+    pub at: Time,
+    /// The processes that have not ended, in order of creation.
+    pub waiting: Vec<Waiting>,
+}
+
+/// One process that waits.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Waiting {
+    /// Its name.
+    pub process: String,
+    /// The name of what it waits for.
+    pub on: String,
+}
+
+impl fmt::Display for Stalled {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "stalled at {}: no event is left", self.at)?;
+        for (index, Waiting { process, on }) in self.waiting.iter().enumerate() {
+            let separator = if index == 0 { ", but" } else { ";" };
+            write!(f, "{separator} {process} waits for {on}")?;
+        }
+        Ok(())
+    }
+}
+
+impl Error for Stalled {}

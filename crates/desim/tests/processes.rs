@@ -1,0 +1,285 @@
+//! Processes, signals and time, seen from outside: each test is a small program whose exact course
+//! is written down.
+
+use std::cell::{Cell, RefCell};
+use std::fmt::Write as _;
+use std::rc::Rc;
+
+use desim::{Duration, Handle, Signal, Simulation, Stalled, Time, Waiting};
+
+/// Lines stamped with virtual time.
+#[derive(Clone)]
+struct Log {
+    handle: Handle,
+    text: Rc<RefCell<String>>,
+}
+
+impl Log {
+    fn new(handle: &Handle) -> Log {
+        Log { handle: handle.clone(), text: Rc::default() }
+    }
+
+    fn line(&self, line: impl AsRef<str>) {
+        let now = self.handle.now();
+        self.text.borrow_mut().push_str(&format!("{now:>8}  {}\n", line.as_ref()));
+    }
+
+    fn expect(&self, lines: &[&str]) {
+        assert_eq!(self.text.borrow().lines().collect::<Vec<_>>(), lines);
+    }
+}
+
+fn ns(count: u64) -> Duration {
+    Duration::from_ps(1_000) * count
+}
+
+fn at_ns(count: u64) -> Time {
+    Time::ZERO + ns(count)
+}
+
+#[test]
+fn equal_times_are_first_come_first_served() {
+    let simulation = Simulation::new();
+    let handle = simulation.handle();
+    let log = Log::new(&handle);
+    for name in ["second", "third"] {
+        let log = log.clone();
+        handle.at(at_ns(5), move || log.line(name));
+    }
+    let (later, h) = (log.clone(), handle.clone());
+    handle.at(at_ns(1), move || {
+        later.line("first");
+        let log = later.clone();
+        h.at(at_ns(5), move || log.line("fourth"));
+        let log = later.clone();
+        h.at(Time::ZERO, move || log.line("a past time is the present"));
+        later.line("never from within");
+    });
+    assert_eq!(simulation.run(), Ok(at_ns(5)));
+    log.expect(&[
+        "    1 ns  first",
+        "    1 ns  never from within",
+        "    1 ns  a past time is the present",
+        "    5 ns  second",
+        "    5 ns  third",
+        "    5 ns  fourth",
+    ]);
+}
+
+#[test]
+fn ping_pong() {
+    let simulation = Simulation::new();
+    let handle = simulation.handle();
+    let log = Log::new(&handle);
+    let (ping, pong) = (Signal::new(&handle, "ping"), Signal::new(&handle, "pong"));
+
+    let (h, l, hear, call) = (handle.clone(), log.clone(), ping.clone(), pong.clone());
+    handle.spawn("right", async move {
+        for _ in 0..2 {
+            hear.wait().await;
+            h.sleep(ns(3)).await;
+            l.line("pong");
+            call.notify();
+        }
+    });
+    let (h, l) = (handle.clone(), log.clone());
+    handle.spawn("left", async move {
+        for _ in 0..2 {
+            h.sleep(ns(10)).await;
+            l.line("ping");
+            ping.notify();
+            pong.wait().await;
+        }
+    });
+    assert_eq!(simulation.run(), Ok(at_ns(26)));
+    log.expect(&["   10 ns  ping", "   13 ns  pong", "   23 ns  ping", "   26 ns  pong"]);
+}
+
+/// A process that waits for a bell until 10 ns, in a world where the bell rings at `ring`;
+/// `bell_first` schedules the bell before the process.
+fn race(ring: Time, bell_first: bool) -> (Option<bool>, Time) {
+    let simulation = Simulation::new();
+    let handle = simulation.handle();
+    let bell = Signal::new(&handle, "bell");
+    let heard = Rc::new(Cell::new(None));
+
+    let ringing = bell.clone();
+    let (h, answer) = (handle.clone(), heard.clone());
+    let process = async move {
+        answer.set(Some(bell.wait_until(at_ns(10)).await));
+        assert_eq!(h.now(), ring.min(at_ns(10)));
+    };
+    if bell_first {
+        handle.at(ring, move || ringing.notify());
+        handle.spawn("listener", process);
+    } else {
+        handle.spawn("listener", process);
+        let h = handle.clone();
+        // Scheduled when the listener's own timer already stands in the queue.
+        handle.at(at_ns(1), move || h.at(ring, move || ringing.notify()));
+    }
+    let end = simulation.run().expect("nobody waits for ever");
+    (heard.get(), end)
+}
+
+#[test]
+fn signal_and_time_race() {
+    // The stale timer does not keep the simulation alive until 10 ns.
+    assert_eq!(race(at_ns(4), true), (Some(true), at_ns(4)));
+    assert_eq!(race(at_ns(4), false), (Some(true), at_ns(4)));
+    // At equal times the order of scheduling decides.
+    assert_eq!(race(at_ns(10), true), (Some(true), at_ns(10)));
+    assert_eq!(race(at_ns(10), false), (Some(false), at_ns(10)));
+    // Nobody hears a bell that rings too late, and it does no harm.
+    assert_eq!(race(at_ns(40), true), (Some(false), at_ns(40)));
+}
+
+#[test]
+fn a_signal_has_no_memory_and_wakes_in_order_of_arrival() {
+    let simulation = Simulation::new();
+    let handle = simulation.handle();
+    let log = Log::new(&handle);
+    let bell = Signal::new(&handle, "bell");
+    bell.notify();
+    for (name, arrives) in [("late", 3), ("early", 1), ("middle", 2)] {
+        let (h, l, bell) = (handle.clone(), log.clone(), bell.clone());
+        handle.spawn(name, async move {
+            h.sleep(ns(arrives)).await;
+            bell.wait().await;
+            l.line(name);
+        });
+    }
+    handle.at(at_ns(5), move || bell.notify());
+    assert_eq!(simulation.run(), Ok(at_ns(5)));
+    log.expect(&["    5 ns  early", "    5 ns  middle", "    5 ns  late"]);
+}
+
+#[test]
+fn a_dropped_wait_is_harmless() {
+    let simulation = Simulation::new();
+    let handle = simulation.handle();
+    let (bell, h) = (Signal::new(&handle, "bell"), handle.clone());
+    handle.spawn("hasty", async move {
+        // Polls a wait once, then drops it.
+        let mut wait = Box::pin(bell.wait_until(at_ns(1_000)));
+        std::future::poll_fn(|context| {
+            assert!(wait.as_mut().poll(context).is_pending());
+            std::task::Poll::Ready(())
+        })
+        .await;
+        drop(wait);
+        bell.notify();
+        h.sleep(ns(7)).await;
+        assert_eq!(h.now(), at_ns(7));
+    });
+    assert_eq!(simulation.run(), Ok(at_ns(7)));
+}
+
+#[test]
+fn a_stall_names_who_waits_for_what() {
+    let simulation = Simulation::new();
+    let handle = simulation.handle();
+    for (name, object) in [("node 0", "mail at node 0"), ("node 1", "mail at node 1")] {
+        let (h, mail) = (handle.clone(), Signal::new(&handle, object));
+        handle.spawn(name, async move {
+            h.sleep(ns(2)).await;
+            mail.wait().await;
+        });
+    }
+    handle.spawn("done", async {});
+    handle.spawn("stranger", std::future::pending());
+    let stalled = simulation.run().unwrap_err();
+    let waiting = |process: &str, on: &str| Waiting { process: process.into(), on: on.into() };
+    assert_eq!(
+        stalled,
+        Stalled {
+            at: at_ns(2),
+            waiting: vec![
+                waiting("node 0", "mail at node 0"),
+                waiting("node 1", "mail at node 1"),
+                waiting("stranger", "a future that no event resolves"),
+            ],
+        }
+    );
+    assert_eq!(
+        stalled.to_string(),
+        "stalled at 2 ns: no event is left, but node 0 waits for mail at node 0; \
+         node 1 waits for mail at node 1; stranger waits for a future that no event resolves"
+    );
+}
+
+#[test]
+fn a_run_can_go_on_after_a_stall() {
+    let simulation = Simulation::new();
+    let handle = simulation.handle();
+    let bell = Signal::new(&handle, "bell");
+    let waiting = bell.clone();
+    handle.spawn("listener", async move { waiting.wait().await });
+    assert!(simulation.run().is_err());
+    bell.notify();
+    assert_eq!(simulation.run(), Ok(Time::ZERO));
+}
+
+#[test]
+fn the_observer_sees_every_step() {
+    let simulation = Simulation::new();
+    let handle = simulation.handle();
+    let trace = Rc::new(RefCell::new(String::new()));
+    let lines = trace.clone();
+    handle.set_observer(move |time, process, what| {
+        writeln!(lines.borrow_mut(), "{time} {process} {what:?}").unwrap();
+    });
+    let bell = Signal::new(&handle, "bell");
+    let (h, ringing) = (handle.clone(), bell.clone());
+    handle.spawn("ringer", async move {
+        h.sleep(ns(2)).await;
+        ringing.notify();
+        h.sleep(Duration::ZERO).await;
+    });
+    handle.spawn("listener", async move { bell.wait().await });
+    simulation.run().unwrap();
+    let golden = "\
+0 s ringer Started
+0 s listener Started
+2 ns ringer TimeCame
+2 ns listener Notified
+2 ns listener Ended
+2 ns ringer TimeCame
+2 ns ringer Ended
+";
+    assert_eq!(*trace.borrow(), golden);
+}
+
+#[test]
+fn a_hundred_thousand_events() {
+    let simulation = Simulation::new();
+    let handle = simulation.handle();
+    let steps = Rc::new(Cell::new(0_u64));
+    for process in 1..=100_u64 {
+        let (h, steps) = (handle.clone(), steps.clone());
+        handle.spawn(format!("process {process}"), async move {
+            for _ in 0..1_000 {
+                h.sleep(Duration::from_ps(process)).await;
+                steps.set(steps.get() + 1);
+            }
+        });
+    }
+    assert_eq!(simulation.run(), Ok(Time(100_000)));
+    assert_eq!(steps.get(), 100_000);
+}
+
+#[test]
+fn a_dropped_simulation_frees_its_processes() {
+    let simulation = Simulation::new();
+    let handle = simulation.handle();
+    let held = Rc::new(());
+    let (bell, in_process) = (Signal::new(&handle, "bell"), held.clone());
+    handle.spawn("waits for ever", async move {
+        bell.wait().await;
+        drop(in_process);
+    });
+    assert!(simulation.run().is_err());
+    assert_eq!(Rc::strong_count(&held), 2);
+    drop(simulation);
+    assert_eq!(Rc::strong_count(&held), 1);
+}

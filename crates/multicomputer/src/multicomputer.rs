@@ -1,0 +1,80 @@
+//! A machine that runs: its nodes, their mail, and the network between them, over [`desim`].
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use desim::Handle;
+
+use crate::account::NodeAccount;
+use crate::machine::{Machine, MachineError};
+use crate::network::Network;
+use crate::node::{Node, NodeState, Rank};
+
+/// A machine on which processes run that send each other messages of type `M`. Clones are the same
+/// machine.
+pub struct Multicomputer<M>(Rc<Shared<M>>);
+
+/// What all nodes share.
+pub(crate) struct Shared<M> {
+    pub(crate) handle: Handle,
+    pub(crate) network: RefCell<Box<dyn Network>>,
+    pub(crate) nodes: Vec<NodeState<M>>,
+}
+
+impl<M> Clone for Multicomputer<M> {
+    fn clone(&self) -> Multicomputer<M> {
+        Multicomputer(self.0.clone())
+    }
+}
+
+impl<M: 'static> Multicomputer<M> {
+    /// The machine with `compute_ranks` compute processes, ranks 0 and up, one on each of the
+    /// first compute nodes. The rank that follows is the service process, on the first service
+    /// node.
+    ///
+    /// # Errors
+    /// When there is no compute process, or more than the machine has compute nodes.
+    pub fn new(
+        handle: &Handle,
+        machine: &Machine,
+        compute_ranks: usize,
+    ) -> Result<Multicomputer<M>, MachineError> {
+        let network = machine.network.build(machine.mesh());
+        Multicomputer::with_network(handle, machine, compute_ranks, network)
+    }
+
+    /// Like [`Multicomputer::new`], with a network other than the machine's own.
+    ///
+    /// # Errors
+    /// As for [`Multicomputer::new`].
+    pub fn with_network(
+        handle: &Handle,
+        machine: &Machine,
+        compute_ranks: usize,
+        network: Box<dyn Network>,
+    ) -> Result<Multicomputer<M>, MachineError> {
+        let nodes = machine
+            .places(compute_ranks)?
+            .enumerate()
+            .map(|(rank, place)| NodeState::new(handle, rank, place))
+            .collect();
+        let network = RefCell::new(network);
+        Ok(Multicomputer(Rc::new(Shared { handle: handle.clone(), network, nodes })))
+    }
+
+    /// The node of a process, to be moved into it.
+    ///
+    /// # Panics
+    /// When no process has that rank.
+    pub fn node(&self, rank: Rank) -> Node<M> {
+        let ranks = self.0.nodes.len();
+        assert!(rank < ranks, "no rank {rank}: the ranks are 0 to {}", ranks - 1);
+        Node::new(rank, self.0.clone())
+    }
+
+    /// Where every node's time has gone until now, in the order of ranks.
+    pub fn accounts(&self) -> Vec<NodeAccount> {
+        let now = self.0.handle.now();
+        self.0.nodes.iter().map(|node| node.ledger.borrow_mut().account(now)).collect()
+    }
+}

@@ -1,0 +1,21 @@
+//! What a processor takes for counted operations.
+
+use std::collections::BTreeMap;
+
+/// A processor that takes a fixed number of cycles for each operation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Processor {
+    /// Cycles a second, Hz.
+    pub clock: f64,
+    /// Factor on all cycle counts: compiled code is slower than operations counted by hand.
+    pub scale: f64,
+    /// Cycles of each operation, by name.
+    pub cycles: BTreeMap<String, f64>,
+}
+
+impl Processor {
+    /// Seconds that an operation takes, cycles × scale / clock; `None` for one without a price.
+    pub fn price(&self, operation: &str) -> Option<f64> {
+        self.cycles.get(operation).map(|cycles| cycles * self.scale / self.clock)
+    }
+}

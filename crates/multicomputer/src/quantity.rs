@@ -1,0 +1,312 @@
+//! Quantities written as text with their units: "50 MHz", "40 ns", "72 MB/s", "10 %".
+//!
+//! A file never holds a bare number whose unit the reader must guess. Prefixes of bytes are
+//! decimal unless they say otherwise: KB = kB = 1,000 B, MB = 1,000,000 B; KiB = 1,024 B.
+
+use std::fmt;
+
+use thiserror::Error;
+
+/// What a quantity measures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dimension {
+    /// Seconds, at least zero.
+    Time,
+    /// Hertz, above zero.
+    Frequency,
+    /// Bytes a second, above zero.
+    Bandwidth,
+    /// Bytes, at least zero.
+    Bytes,
+    /// A part of one, written in per cent, at least zero: "10 %" is 0.1.
+    Fraction,
+    /// Metres, at least zero.
+    Length,
+    /// Cycles of a processor's clock, at least zero.
+    Cycles,
+}
+
+/// How a number in some unit becomes one in the dimension's SI unit. Small units divide, since
+/// 40 / 1e9 is the f64 nearest to 40 ns and 40 * 1e-9 need not be.
+#[derive(Clone, Copy)]
+enum Scale {
+    Times(f64),
+    Over(f64),
+}
+use Scale::{Over, Times};
+
+type Units = &'static [(&'static str, Scale)];
+
+impl Dimension {
+    /// The word for it and an example, as in "expected a frequency such as \"50 MHz\"".
+    fn word_and_example(self) -> (&'static str, &'static str) {
+        match self {
+            Dimension::Time => ("a time", "40 ns"),
+            Dimension::Frequency => ("a frequency", "50 MHz"),
+            Dimension::Bandwidth => ("a bandwidth", "72 MB/s"),
+            Dimension::Bytes => ("a size", "16 MB"),
+            Dimension::Fraction => ("a fraction", "10 %"),
+            Dimension::Length => ("a length", "0.25 m"),
+            Dimension::Cycles => ("a number of cycles", "12 cycles"),
+        }
+    }
+
+    /// An example of a quantity of this dimension.
+    pub fn example(self) -> &'static str {
+        self.word_and_example().1
+    }
+
+    /// The names of the units that [`parse`] takes.
+    pub fn unit_names(self) -> impl Iterator<Item = &'static str> {
+        self.units().iter().map(|(name, _)| *name)
+    }
+
+    fn units(self) -> Units {
+        match self {
+            Dimension::Time => &[
+                ("s", Times(1.0)),
+                ("ms", Over(1e3)),
+                ("us", Over(1e6)),
+                ("µs", Over(1e6)), // the micro sign, as keyboards have it
+                ("μs", Over(1e6)), // the Greek letter, as Unicode prefers it
+                ("ns", Over(1e9)),
+                ("ps", Over(1e12)),
+            ],
+            Dimension::Frequency => {
+                &[("Hz", Times(1.0)), ("kHz", Times(1e3)), ("MHz", Times(1e6)), ("GHz", Times(1e9))]
+            }
+            Dimension::Bandwidth => &[
+                ("B/s", Times(1.0)),
+                ("kB/s", Times(1e3)),
+                ("KB/s", Times(1e3)),
+                ("MB/s", Times(1e6)),
+                ("GB/s", Times(1e9)),
+            ],
+            Dimension::Bytes => &[
+                ("B", Times(1.0)),
+                ("kB", Times(1e3)),
+                ("KB", Times(1e3)),
+                ("MB", Times(1e6)),
+                ("GB", Times(1e9)),
+                ("KiB", Times(1_024.0)),
+                ("MiB", Times(1_048_576.0)),
+                ("GiB", Times(1_073_741_824.0)),
+            ],
+            Dimension::Fraction => &[("%", Over(100.0))],
+            Dimension::Length => &[("m", Times(1.0)), ("cm", Over(100.0)), ("mm", Over(1e3))],
+            Dimension::Cycles => &[("cycles", Times(1.0)), ("cycle", Times(1.0))],
+        }
+    }
+
+    fn allows_zero(self) -> bool {
+        !matches!(self, Dimension::Frequency | Dimension::Bandwidth)
+    }
+}
+
+/// "a frequency such as \"50 MHz\"".
+impl fmt::Display for Dimension {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (word, example) = self.word_and_example();
+        write!(f, "{word} such as {example:?}")
+    }
+}
+
+/// Why a text is no quantity of the dimension expected.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum QuantityError {
+    /// It does not begin with a number.
+    #[error("found {found:?}; expected {expected}")]
+    NoNumber {
+        /// The text.
+        found: String,
+        /// What should stand there.
+        expected: Dimension,
+    },
+    /// Only a number.
+    #[error("found {found:?} without a unit; expected {expected}")]
+    NoUnit {
+        /// The text.
+        found: String,
+        /// What should stand there.
+        expected: Dimension,
+    },
+    /// The unit of another dimension, or of none.
+    #[error("found {found:?} with the unit {unit:?}; expected {expected} (units: {})", names(*expected))]
+    WrongUnit {
+        /// The text.
+        found: String,
+        /// The unit in it.
+        unit: String,
+        /// What should stand there.
+        expected: Dimension,
+    },
+    /// Below zero, zero where that means nothing, or too large for an f64.
+    #[error("found {found:?}; expected {expected}, {}", range(*expected))]
+    OutOfRange {
+        /// The text.
+        found: String,
+        /// What should stand there.
+        expected: Dimension,
+    },
+}
+
+fn names(dimension: Dimension) -> String {
+    dimension.unit_names().collect::<Vec<_>>().join(", ")
+}
+
+fn range(dimension: Dimension) -> &'static str {
+    if dimension.allows_zero() { "finite and not negative" } else { "finite and above zero" }
+}
+
+/// Reads a number with a unit of the given dimension; returns it in the dimension's SI unit.
+///
+/// # Errors
+/// [`QuantityError`], whose text says what was found and what was expected, with an example.
+pub fn parse(text: &str, expected: Dimension) -> Result<f64, QuantityError> {
+    let found = || text.to_owned();
+    let (number, unit) = split(text.trim());
+    let Ok(number) = number.parse::<f64>() else {
+        return Err(QuantityError::NoNumber { found: found(), expected });
+    };
+    if unit.is_empty() {
+        return Err(QuantityError::NoUnit { found: found(), expected });
+    }
+    let Some((_, scale)) = expected.units().iter().find(|(name, _)| *name == unit) else {
+        return Err(QuantityError::WrongUnit { found: found(), unit: unit.to_owned(), expected });
+    };
+    let value = match scale {
+        Times(factor) => number * factor,
+        Over(divisor) => number / divisor,
+    };
+    let in_range = value.is_finite() && (value > 0.0 || value == 0.0 && expected.allows_zero());
+    if in_range { Ok(value) } else { Err(QuantityError::OutOfRange { found: found(), expected }) }
+}
+
+/// Splits "1.5e3 s" into "1.5e3" and "s". An `e` belongs to the number only before a digit or sign.
+fn split(text: &str) -> (&str, &str) {
+    let bytes = text.as_bytes();
+    let is_exponent = |at: usize| {
+        matches!(bytes[at], b'e' | b'E')
+            && at > 0
+            && bytes.get(at + 1).is_some_and(|b| b.is_ascii_digit() || matches!(b, b'+' | b'-'))
+    };
+    let end = (0..bytes.len())
+        .find(|&at| {
+            !(bytes[at].is_ascii_digit()
+                || matches!(bytes[at], b'+' | b'-' | b'.')
+                || is_exponent(at))
+        })
+        .unwrap_or(bytes.len());
+    // Everything before `end` is ASCII, so that it is a boundary of characters.
+    let (number, unit) = text.split_at(end);
+    (number, unit.trim_start())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use Dimension::{Bandwidth, Bytes, Cycles, Fraction, Frequency, Length, Time};
+
+    #[test]
+    fn quantities_are_read_to_the_nearest_f64() {
+        for (text, dimension, value) in [
+            ("50 MHz", Frequency, 50e6),
+            ("50MHz", Frequency, 50e6),
+            (" 1.5e3   kHz ", Frequency, 1.5e6),
+            ("40 ns", Time, 40e-9),
+            ("42 us", Time, 42e-6),
+            ("42 µs", Time, 42e-6),
+            ("42 μs", Time, 42e-6),
+            ("11.5 ns", Time, 11.5e-9),
+            ("0 s", Time, 0.0),
+            ("1 s", Time, 1.0),
+            ("2.5E-1 ms", Time, 0.25e-3),
+            ("72 MB/s", Bandwidth, 72e6),
+            ("4 KB", Bytes, 4_000.0),
+            ("4 KiB", Bytes, 4_096.0),
+            ("16 MB", Bytes, 16e6),
+            ("10 %", Fraction, 0.1),
+            ("7%", Fraction, 0.07),
+            ("0.25 m", Length, 0.25),
+            ("30 cm", Length, 0.3),
+            ("12 cycles", Cycles, 12.0),
+            ("1 cycle", Cycles, 1.0),
+        ] {
+            assert_eq!(parse(text, dimension), Ok(value), "{text}");
+        }
+    }
+
+    #[test]
+    fn every_example_is_one() {
+        for dimension in [Time, Frequency, Bandwidth, Bytes, Fraction, Length, Cycles] {
+            assert!(parse(dimension.example(), dimension).is_ok(), "{dimension}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_quantity_is_refused_with_what_was_expected() {
+        for (text, dimension, message) in [
+            (
+                "50",
+                Frequency,
+                r#"found "50" without a unit; expected a frequency such as "50 MHz""#,
+            ),
+            ("", Time, r#"found ""; expected a time such as "40 ns""#),
+            ("soon", Time, r#"found "soon"; expected a time such as "40 ns""#),
+            ("NaN s", Time, r#"found "NaN s"; expected a time such as "40 ns""#),
+            ("inf s", Time, r#"found "inf s"; expected a time such as "40 ns""#),
+            ("1.2.3 m", Length, r#"found "1.2.3 m"; expected a length such as "0.25 m""#),
+            (
+                "1 e3 m",
+                Length,
+                r#"found "1 e3 m" with the unit "e3 m"; expected a length such as "0.25 m" (units: m, cm, mm)"#,
+            ),
+            (
+                "50 mHz",
+                Frequency,
+                r#"found "50 mHz" with the unit "mHz"; expected a frequency such as "50 MHz" (units: Hz, kHz, MHz, GHz)"#,
+            ),
+            (
+                "10 s",
+                Fraction,
+                r#"found "10 s" with the unit "s"; expected a fraction such as "10 %" (units: %)"#,
+            ),
+            (
+                "-1 s",
+                Time,
+                r#"found "-1 s"; expected a time such as "40 ns", finite and not negative"#,
+            ),
+            (
+                "1e999 s",
+                Time,
+                r#"found "1e999 s"; expected a time such as "40 ns", finite and not negative"#,
+            ),
+            (
+                "0 Hz",
+                Frequency,
+                r#"found "0 Hz"; expected a frequency such as "50 MHz", finite and above zero"#,
+            ),
+            (
+                "0 B/s",
+                Bandwidth,
+                r#"found "0 B/s"; expected a bandwidth such as "72 MB/s", finite and above zero"#,
+            ),
+            (
+                "-5 %",
+                Fraction,
+                r#"found "-5 %"; expected a fraction such as "10 %", finite and not negative"#,
+            ),
+        ] {
+            let error = parse(text, dimension).map_err(|error| error.to_string());
+            assert_eq!(error, Err(message.to_owned()));
+        }
+    }
+
+    proptest::proptest! {
+        #[test]
+        fn no_text_panics(text in ".*", number in proptest::num::f64::ANY) {
+            let _ = parse(&text, Time);
+            let _ = parse(&format!("{number:e} {text}"), Bytes);
+        }
+    }
+}

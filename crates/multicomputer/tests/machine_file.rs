@@ -1,0 +1,162 @@
+//! Machine files: the one that is shipped, and those that are refused.
+
+use std::fs;
+use std::path::PathBuf;
+
+use multicomputer::{Machine, MachineError, NetworkModel, machine_schema};
+use serde_json::{Value, json};
+
+fn machines(name: &str) -> PathBuf {
+    PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../machines")).join(name)
+}
+
+fn paragon() -> Value {
+    let text = fs::read_to_string(machines("paragon-xps.json")).expect("the file is shipped");
+    serde_json::from_str(&text).expect("it is JSON")
+}
+
+fn read(file: &Value) -> Result<Machine, MachineError> {
+    Machine::from_json(&file.to_string(), "m.json")
+}
+
+#[test]
+fn the_paragon() {
+    let machine = read(&paragon()).unwrap();
+    assert_eq!((machine.compute_nodes(), machine.service_nodes()), (56, 2));
+    assert_eq!(machine.processor.clock, 50e6);
+    assert_eq!(machine.processor.price("cell_step"), Some(30.0 * machine.processor.scale / 50e6));
+    assert_eq!(machine.processor.price("daydream"), None);
+    let NetworkModel::LogGp(network) = &machine.network else { panic!("LogGP") };
+    // The published latency is what an empty message takes.
+    let latency = network.send_overhead + network.latency + network.receive_overhead;
+    assert_eq!(latency.to_string(), "42 µs");
+}
+
+#[test]
+fn an_ideal_network_needs_no_parameters() {
+    let mut file = paragon();
+    file["network"] = json!({ "model": "ideal" });
+    assert_eq!(read(&file).unwrap().network, NetworkModel::Ideal);
+}
+
+/// The shipped file with the value at a JSON pointer replaced.
+fn with(pointer: &str, value: Value) -> Value {
+    let mut file = paragon();
+    *file.pointer_mut(pointer).expect("the pointer meets a value") = value;
+    file
+}
+
+/// The shipped file without the key at the end of a JSON pointer.
+fn without(object: &str, key: &str) -> Value {
+    let mut file = paragon();
+    let object = file.pointer_mut(object).and_then(Value::as_object_mut);
+    object.expect("the pointer meets an object").shift_remove(key).expect("the key is there");
+    file
+}
+
+/// The message without line and column, which depend on the file's layout.
+fn message(file: &Value) -> String {
+    match read(file).map(|machine| machine.title) {
+        Err(MachineError::File(mut fault)) => {
+            fault.line_and_column = None;
+            fault.to_string()
+        }
+        other => panic!("expected a fault of the file, found {other:?}"),
+    }
+}
+
+#[test]
+fn faults_name_place_value_and_what_was_expected() {
+    let cases = [
+        (
+            with("/processor/clock/value", json!("50")),
+            r#"m.json: processor.clock.value: found "50" without a unit; expected a frequency such as "50 MHz""#,
+        ),
+        (
+            with("/processor/clock/value", json!(50)),
+            r#"m.json: processor.clock.value: invalid type: integer `50`, expected a frequency such as "50 MHz""#,
+        ),
+        (
+            with("/processor/operations/ray/value", json!("-3 cycles")),
+            r#"m.json: processor.operations.ray.value: found "-3 cycles"; expected a number of cycles such as "12 cycles", finite and not negative"#,
+        ),
+        (
+            with("/processor/scale/value", json!(0)),
+            "m.json: processor.scale.value: found 0; expected a number above zero",
+        ),
+        (
+            with("/network/parameters/bandwidth/value", json!("0 MB/s")),
+            r#"m.json: network.parameters.bandwidth.value: found "0 MB/s"; expected a bandwidth such as "72 MB/s", finite and above zero"#,
+        ),
+        (
+            with("/network/model", json!("pigeon")),
+            "m.json: network.model: unknown variant `pigeon`, expected `loggp` or `ideal`",
+        ),
+        (
+            with("/mesh/width/provenance", json!("guessed")),
+            "m.json: mesh.width.provenance: unknown variant `guessed`, expected one of `published`, `derived`, `assumed`, `calibrated`",
+        ),
+        (
+            with("/mesh/width/source", json!(" ")),
+            r#"m.json: mesh.width.source: invalid value: string " ", expected where the number comes from"#,
+        ),
+        (
+            with("/mesh/width", json!(4)),
+            "m.json: mesh.width: invalid type: integer `4`, expected an object of value, provenance and source",
+        ),
+        (
+            with("/compute_nodes/value", json!(0)),
+            "m.json: compute_nodes.value: invalid value: integer `0`, expected a nonzero u16",
+        ),
+        (
+            with("/compute_nodes/value", json!(63)),
+            "m.json: mesh: found 4 × 16 = 64 places; expected at least 65, for 63 compute nodes and 2 service nodes",
+        ),
+        (
+            with("/mesh/height/value", json!(65_535)),
+            "m.json: mesh: found 4 × 65535 = 262140 places; expected at most 65536",
+        ),
+        (without("/mesh", "hop_time"), "m.json: mesh: missing field `hop_time`"),
+        (
+            with("/processor/clock", json!({ "value": "50 MHz", "provenanse": "published" })),
+            "m.json: processor.clock.provenanse: unknown field `provenanse`, expected one of `value`, `provenance`, `source`",
+        ),
+        (json!([]), "m.json: invalid length 0, expected an object that describes a machine"),
+    ];
+    for (file, expected) in cases {
+        assert_eq!(message(&file), expected);
+    }
+}
+
+#[test]
+fn faults_of_the_text_name_line_and_column() {
+    let text = fs::read_to_string(machines("paragon-xps.json")).unwrap();
+    let message = |text: &str| match Machine::from_json(text, "m.json") {
+        Err(error) => error.to_string(),
+        Ok(_) => panic!("expected an error"),
+    };
+    assert_eq!(message(""), "m.json:1:0: EOF while parsing a value");
+    assert_eq!(message("{\n  \"title\": }"), "m.json:2:12: title: expected value");
+    assert_eq!(message(&format!("{text}}}")), "m.json:126:1: trailing characters");
+    assert_eq!(
+        message(&text.replace("\"50 MHz\"", "\"50 m\"")),
+        "m.json:37:21: processor.clock.value: found \"50 m\" with the unit \"m\"; \
+         expected a frequency such as \"50 MHz\" (units: Hz, kHz, MHz, GHz)"
+    );
+    assert_eq!(
+        message(&text.replace("\"cell_step\"", "\"ray\"")),
+        "m.json:58:12: processor.operations.ray: found \"ray\" twice; expected it once"
+    );
+}
+
+#[test]
+fn the_shipped_schema_is_the_code_s() {
+    let path = machines("schemas/machine.json");
+    let mut text = serde_json::to_string_pretty(&machine_schema()).unwrap();
+    text.push('\n');
+    if std::env::var_os("UPDATE_SCHEMAS").is_some() {
+        fs::write(&path, &text).unwrap();
+    }
+    let shipped = fs::read_to_string(&path).unwrap();
+    assert!(shipped == text, "machines/schemas/machine.json is stale: UPDATE_SCHEMAS=1 cargo test");
+}

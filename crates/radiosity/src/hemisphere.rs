@@ -1,0 +1,260 @@
+//! The hemisphere of directions over a source: a pixel, a ray, a bit of the mask (§3.2).
+
+use std::f64::consts::{PI, TAU};
+
+use glam::DVec3;
+use thiserror::Error;
+
+/// How the pixels of a hemisphere are laid out.
+///
+/// Choice C1: RR-3008 says "a hemisphere" and leaves its pixels open. All sets but the hemicube are
+/// weighted by the cosine, so that a pixel is worth the same form factor everywhere.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HemisphereKind {
+    /// A Fibonacci spiral on the unit disc, lifted to the hemisphere: the most even of these sets.
+    Fibonacci,
+    /// The five half-faces of a cube around the source, weighted by delta form factors.
+    Hemicube,
+    /// Rings of equal area on the disc, cut into equal sectors.
+    Polar,
+    /// A square of pixels mapped onto the disc ring by ring (Shirley and Chiu).
+    Concentric,
+}
+
+/// Directions over a source and the form factor that each stands for.
+#[derive(Clone, Debug)]
+pub struct Hemisphere {
+    /// Unit directions in the source's frame, z along its normal.
+    pub directions: Vec<DVec3>,
+    /// Form factor of each pixel; they sum to 1.
+    pub weights: Vec<f64>,
+    /// Whether the set is turned about the normal by an angle of the source's own.
+    pub rotated: bool,
+}
+
+/// A number of pixels that a kind of hemisphere cannot have.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("{pixels} pixels do not make a {kind:?} hemisphere; expected {expected}")]
+pub struct HemisphereError {
+    /// What was asked for.
+    pub kind: HemisphereKind,
+    /// What was asked for.
+    pub pixels: u32,
+    /// What would do.
+    pub expected: String,
+}
+
+/// The most pixels that a hemisphere may have; a mask of so many takes 2 MiB.
+pub const MOST_PIXELS: u32 = 1 << 24;
+
+impl Hemisphere {
+    /// A hemisphere of `pixels` pixels; a hemicube takes as many of them as fill its faces.
+    pub fn new(
+        kind: HemisphereKind,
+        pixels: u32,
+        rotated: bool,
+    ) -> Result<Hemisphere, HemisphereError> {
+        let refuse = |expected: String| Err(HemisphereError { kind, pixels, expected });
+        if !(1..=MOST_PIXELS).contains(&pixels) {
+            return refuse(format!("1 to {MOST_PIXELS}"));
+        }
+        let (directions, weights) = match kind {
+            HemisphereKind::Fibonacci => equal(fibonacci(pixels)),
+            HemisphereKind::Polar => equal(polar(pixels)),
+            HemisphereKind::Concentric => {
+                let side = pixels.isqrt();
+                if side * side != pixels {
+                    let next = side + 1;
+                    return refuse(format!("a square, such as {} or {}", side * side, next * next));
+                }
+                equal(concentric(side))
+            }
+            HemisphereKind::Hemicube => {
+                let side = (pixels / 3).isqrt() & !1;
+                if side == 0 {
+                    return refuse("12 or more".to_owned());
+                }
+                hemicube(side)
+            }
+        };
+        Ok(Hemisphere { directions, weights, rotated })
+    }
+
+    /// Number of pixels.
+    pub fn pixels(&self) -> u32 {
+        self.directions.len() as u32
+    }
+
+    /// Tangent, bitangent and normal over a source with its centre at `centre`. Whoever knows the
+    /// centre and the normal, exactly, gets the same frame: a mask's receiver casts the same rays.
+    pub fn frame(&self, centre: DVec3, normal: DVec3) -> [DVec3; 3] {
+        let least = if normal.x.abs() <= normal.y.abs() && normal.x.abs() <= normal.z.abs() {
+            DVec3::X
+        } else if normal.y.abs() <= normal.z.abs() {
+            DVec3::Y
+        } else {
+            DVec3::Z
+        };
+        let tangent = least.cross(normal).normalize();
+        let bitangent = normal.cross(tangent);
+        let (cos, sin) = if self.rotated { turn(centre) } else { (1.0, 0.0) };
+        [tangent * cos + bitangent * sin, bitangent * cos - tangent * sin, normal]
+    }
+}
+
+/// Cosine and sine of an angle derived from a source's centre: the direction of a pseudo-random
+/// point of the unit disc, so that only exactly rounded operations are needed and every machine
+/// finds the same bits.
+fn turn(centre: DVec3) -> (f64, f64) {
+    let mut state = centre.to_array().iter().fold(0x9e37_79b9_7f4a_7c15, |state, coordinate| {
+        scramble(state ^ (coordinate + 0.0).to_bits())
+    });
+    loop {
+        state = scramble(state);
+        let x = f64::from(state as u32) / f64::from(1u32 << 31) - 1.0;
+        let y = f64::from((state >> 32) as u32) / f64::from(1u32 << 31) - 1.0;
+        let length = (x * x + y * y).sqrt();
+        if length > 0.1 && length <= 1.0 {
+            return (x / length, y / length);
+        }
+    }
+}
+
+/// One step of the SplitMix64 generator (Steele, Lea, Flood 2014).
+fn scramble(state: u64) -> u64 {
+    let mut z = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+fn equal(directions: Vec<DVec3>) -> (Vec<DVec3>, Vec<f64>) {
+    let weights = vec![1.0 / directions.len() as f64; directions.len()];
+    (directions, weights)
+}
+
+/// A point of the unit disc lifted onto the hemisphere: equal areas become equal form factors
+/// (Nusselt's analogue).
+fn lifted(r: f64, phi: f64) -> DVec3 {
+    DVec3::new(r * libm::cos(phi), r * libm::sin(phi), (1.0 - r * r).max(0.0).sqrt())
+}
+
+fn fibonacci(pixels: u32) -> Vec<DVec3> {
+    let golden_turn = TAU * (3.0 - 5f64.sqrt()) / 2.0;
+    let n = f64::from(pixels);
+    (0..pixels)
+        .map(f64::from)
+        .map(|i| lifted(((i + 0.5) / n).sqrt(), (i * golden_turn) % TAU))
+        .collect()
+}
+
+fn polar(pixels: u32) -> Vec<DVec3> {
+    // Rings and sectors such that pixels are about square: four times as many sectors as rings,
+    // or as near to that as the divisors of the number allow.
+    let wanted = f64::from(pixels / 4).sqrt().max(1.0) as u32;
+    let rings = (1..=wanted).rev().find(|rings| pixels.is_multiple_of(*rings)).unwrap_or(1);
+    let sectors = pixels / rings;
+    let pixel = |i: u32| {
+        let (ring, sector) = (f64::from(i / sectors), f64::from(i % sectors));
+        let r = ((ring + 0.5) / f64::from(rings)).sqrt();
+        lifted(r, TAU * (sector + 0.5) / f64::from(sectors))
+    };
+    (0..pixels).map(pixel).collect()
+}
+
+fn concentric(side: u32) -> Vec<DVec3> {
+    let at = |i: u32| 2.0 * (f64::from(i) + 0.5) / f64::from(side) - 1.0;
+    let pixel = |i: u32| {
+        let (x, y) = (at(i % side), at(i / side));
+        if x == 0.0 && y == 0.0 {
+            DVec3::Z
+        } else if x.abs() > y.abs() {
+            lifted(x, PI / 4.0 * (y / x))
+        } else {
+            lifted(y, PI / 2.0 - PI / 4.0 * (x / y))
+        }
+    };
+    (0..side * side).map(pixel).collect()
+}
+
+/// Top face of side × side pixels, then four half-faces (Cohen and Greenberg 1985).
+fn hemicube(side: u32) -> (Vec<DVec3>, Vec<f64>) {
+    let half = side / 2;
+    let at = |i: u32| 2.0 * (f64::from(i) + 0.5) / f64::from(side) - 1.0;
+    let top = (0..side * side).map(|i| DVec3::new(at(i % side), at(i / side), 1.0));
+    let sides = (0..4).flat_map(|face| {
+        (0..side * half).map(move |i| {
+            let (along, up) = (at(i % side), at(half + i / side));
+            match face {
+                0 => DVec3::new(1.0, along, up),
+                1 => DVec3::new(-along, 1.0, up),
+                2 => DVec3::new(-1.0, -along, up),
+                _ => DVec3::new(along, -1.0, up),
+            }
+        })
+    });
+    let points: Vec<DVec3> = top.chain(sides).collect();
+    // Delta form factor up to a constant: the height above the source's plane over distance⁴.
+    let raw: Vec<f64> = points.iter().map(|p| p.z / p.length_squared().powi(2)).collect();
+    let sum: f64 = raw.iter().sum();
+    (points.iter().map(|p| p.normalize()).collect(), raw.iter().map(|w| w / sum).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const KINDS: [HemisphereKind; 4] = [
+        HemisphereKind::Fibonacci,
+        HemisphereKind::Hemicube,
+        HemisphereKind::Polar,
+        HemisphereKind::Concentric,
+    ];
+
+    #[test]
+    fn pixels_are_unit_directions_whose_form_factors_sum_to_one() {
+        for kind in KINDS {
+            let hemisphere = Hemisphere::new(kind, 30_976, true).unwrap();
+            assert!(hemisphere.pixels() > 29_000 && hemisphere.pixels() <= 30_976, "{kind:?}");
+            assert!((hemisphere.weights.iter().sum::<f64>() - 1.0).abs() < 1e-9, "{kind:?}");
+            for d in &hemisphere.directions {
+                assert!(d.z > 0.0 && (d.length() - 1.0).abs() < 1e-12, "{kind:?} {d}");
+            }
+        }
+    }
+
+    /// The form factor of a cap of half-angle a is sin² a.
+    #[test]
+    fn caps_get_their_form_factor() {
+        for kind in KINDS {
+            let hemisphere = Hemisphere::new(kind, 30_976, true).unwrap();
+            for degrees in [10.0_f64, 30.0, 60.0, 80.0] {
+                let (sin, cos) = degrees.to_radians().sin_cos();
+                let pixels = hemisphere.directions.iter().zip(&hemisphere.weights);
+                let cap: f64 = pixels.filter(|(d, _)| d.z >= cos).map(|(_, w)| w).sum();
+                assert!((cap - sin * sin).abs() < 8e-3, "{kind:?} {degrees}°: {cap}");
+            }
+        }
+    }
+
+    #[test]
+    fn frames_are_orthonormal_and_keep_an_axis_exact() {
+        let hemisphere = Hemisphere::new(HemisphereKind::Fibonacci, 16, true).unwrap();
+        for normal in [DVec3::Z, -DVec3::X, DVec3::new(1.0, 2.0, -3.0).normalize()] {
+            let [t, b, n] = hemisphere.frame(DVec3::new(0.1, 0.2, 0.3), normal);
+            assert_eq!(n, normal);
+            for (a, b) in [(t, b), (b, n), (n, t)] {
+                assert!(a.dot(b).abs() < 1e-15);
+            }
+            assert!(t.cross(b).distance(n) < 1e-15);
+        }
+    }
+
+    #[test]
+    fn impossible_numbers_of_pixels_are_refused() {
+        let error = |kind, pixels| Hemisphere::new(kind, pixels, true).unwrap_err().to_string();
+        assert!(error(HemisphereKind::Concentric, 10).contains("such as 9 or 16"));
+        assert!(error(HemisphereKind::Hemicube, 11).contains("12 or more"));
+        assert!(error(HemisphereKind::Fibonacci, 0).contains("1 to 16777216"));
+    }
+}

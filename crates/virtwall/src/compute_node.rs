@@ -1,0 +1,252 @@
+//! The program of a compute node: Figure 9 of RR-3008.
+
+use std::sync::Arc;
+
+use multicomputer::Rank;
+use radiosity::{Operation, Shot, Side, Work, shoot};
+
+use crate::kept_shots::KeptShots;
+use crate::message::{Message, Parcel, Sums};
+use crate::problem::Problem;
+use crate::process::Process;
+use crate::queue::Queue;
+use crate::region::Region;
+use crate::ring::{Ring, Step};
+use crate::rules::{Rules, Ties};
+
+/// A compute node: its part of the scene, its queue, its part in the ring.
+pub struct ComputeNode {
+    pub(crate) shared: Arc<Shared>,
+    pub(crate) region: Region,
+    queue: Queue,
+    ring: Ring,
+    /// Until the service node says to stop selecting local patches.
+    selecting: bool,
+    done: bool,
+    pub(crate) tally: Tally,
+}
+
+/// What all nodes of a run know.
+pub(crate) struct Shared {
+    pub problem: Arc<Problem>,
+    pub rules: Rules,
+    pub kept: Arc<KeptShots>,
+    pub owners: Vec<Rank>,
+    pub processors: usize,
+    pub on_shot: Arc<dyn Fn() + Send + Sync>,
+}
+
+impl Shared {
+    /// The service node's rank follows those of the compute nodes.
+    pub(crate) fn service_node(&self) -> Rank {
+        self.processors
+    }
+}
+
+/// What a compute node counted.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Tally {
+    pub work: Work,
+    pub local_shots: u64,
+    pub received_shots: u64,
+    pub messages: u64,
+    pub message_bytes: u64,
+    pub update_messages: u64,
+    pub update_bytes: u64,
+    pub control_messages: u64,
+    /// Sources handed on, to other nodes and within this one, and those taken up again.
+    pub parcels_sent: u64,
+    pub parcels_taken: u64,
+    /// The power in them, W.
+    pub sent: radiosity::Rgb,
+    pub taken: radiosity::Rgb,
+}
+
+/// Figure 9: compute while there are sources, then take part in the detection of the end, until it
+/// is announced.
+#[doc(alias = "Figure 9")]
+#[doc(alias = "ComputeNode")]
+pub async fn compute_node(process: &impl Process, mut node: ComputeNode) -> ComputeNode {
+    loop {
+        while let Some(source) = node.choose_best_source(process).await {
+            let shot = node.compute_illumination(process, &source).await;
+            node.send_source_neighbours(process, &source, &shot).await;
+            node.send_to_host(process, &source, &shot).await;
+            node.read_arrived(process).await;
+        }
+        node.detect_termination(process).await;
+        if node.done {
+            return node;
+        }
+    }
+}
+
+impl ComputeNode {
+    pub(crate) fn new(shared: &Arc<Shared>, region: Region, rank: Rank) -> ComputeNode {
+        ComputeNode {
+            shared: Arc::clone(shared),
+            region,
+            queue: Queue::default(),
+            ring: Ring::new(rank, shared.processors),
+            selecting: true,
+            done: false,
+            tally: Tally::default(),
+        }
+    }
+
+    /// §4.2.2: the greatest source, from the region or from the queue.
+    async fn choose_best_source(&mut self, process: &impl Process) -> Option<Parcel> {
+        let rules = &self.shared.rules;
+        let mut scan = Work::NONE;
+        scan.count(Operation::QueueScan, self.queue.len() as u64);
+        let received = self.queue.best(rules.selection);
+        let mut local = None;
+        if self.selecting {
+            scan.count(Operation::PatchScan, self.region.patches());
+            local = self.region.best_patch();
+        }
+        self.tally.work += scan;
+        process.compute(|| ((), scan)).await;
+        match (received, local) {
+            (Some((_, place)), None) => Some(self.take_received(place)),
+            (Some((queued, place)), Some((value, ..)))
+                if queued > value || queued == value && rules.ties == Ties::ReceivedFirst =>
+            {
+                Some(self.take_received(place))
+            }
+            (_, Some((_, holding, patch))) => {
+                self.tally.local_shots += 1;
+                Some(self.region.take(holding, patch))
+            }
+            (None, None) => None,
+        }
+    }
+
+    fn take_received(&mut self, place: usize) -> Parcel {
+        let parcel = self.queue.take(place);
+        self.tally.received_shots += 1;
+        self.tally.parcels_taken += 1;
+        self.tally.taken += parcel.source.power * parcel.form_factor;
+        parcel
+    }
+
+    /// §4.2.3: cast the rays of the pixels that are still true, and update radiosities.
+    async fn compute_illumination(
+        &mut self,
+        process: &impl Process,
+        source: &Parcel,
+    ) -> Arc<Shot> {
+        let Shared { problem, kept, on_shot, .. } = &*self.shared;
+        let kernel = || {
+            let environment = &problem.environments[source.environment as usize];
+            let cast = || {
+                let Parcel { source, mask, .. } = source;
+                shoot(&problem.space, environment, &problem.hemisphere, source, mask)
+            };
+            let shot = kept.shot(source, cast);
+            let work = shot.work;
+            (shot, work)
+        };
+        let shot = process.compute(kernel).await;
+        on_shot();
+        self.tally.work += shot.work;
+        self.region.receive(source, &shot);
+        shot
+    }
+
+    /// §4.2.3: hand the source with what is left of its mask to each neighbour that it enters.
+    async fn send_source_neighbours(
+        &mut self,
+        process: &impl Process,
+        parcel: &Parcel,
+        shot: &Shot,
+    ) {
+        for (side, outgoing) in Side::ALL.into_iter().zip(&shot.outgoing) {
+            let Some(outgoing) = outgoing else { continue };
+            let environment =
+                self.shared.problem.decomposition.neighbour(parcel.environment, side);
+            let onward = Parcel {
+                environment,
+                source: parcel.source,
+                mask: outgoing.mask.clone(),
+                form_factor: outgoing.form_factor,
+            };
+            self.tally.parcels_sent += 1;
+            self.tally.sent += onward.source.power * onward.form_factor;
+            let owner = self.shared.owners[environment as usize];
+            if owner == process.rank() {
+                self.queue.push(onward, self.shared.rules.merge_masks);
+            } else {
+                let bytes = Message::Source(Box::new(onward)).encode();
+                self.tally.messages += 1;
+                self.tally.message_bytes += bytes.len() as u64;
+                self.ring.patch_sent();
+                process.send(owner, bytes).await;
+            }
+        }
+    }
+
+    /// Figure 6: tell the service node which radiosities changed, for the display.
+    async fn send_to_host(&mut self, process: &impl Process, parcel: &Parcel, shot: &Shot) {
+        if !self.shared.rules.radiosity_updates || shot.hits.is_empty() {
+            return;
+        }
+        let bytes = Message::Update(self.region.updates(parcel, shot)).encode();
+        self.tally.update_messages += 1;
+        self.tally.update_bytes += bytes.len() as u64;
+        process.send(self.shared.service_node(), bytes).await;
+    }
+
+    /// Figure 9: "Read all the sources arrived from network, put them in queue".
+    async fn read_arrived(&mut self, process: &impl Process) {
+        for bytes in process.received().await {
+            // Processes send each other nothing but encoded messages.
+            let Ok(message) = Message::decode(&bytes) else { continue };
+            match message {
+                Message::Source(parcel) => {
+                    self.queue.push(*parcel, self.shared.rules.merge_masks);
+                }
+                Message::Collect => {
+                    let sums = Message::Sums(self.sums(process.rank()));
+                    self.send_control(process, self.shared.service_node(), &sums).await;
+                }
+                Message::StopSelecting => self.selecting = false,
+                Message::Token(value) => self.ring.token_arrived(value),
+                Message::Done => self.done = true,
+                Message::Update(_) | Message::Sums(_) => {}
+            }
+        }
+    }
+
+    /// §4.2.4: with nothing left to do, pass the token on if it is here, and wait for something to
+    /// arrive.
+    async fn detect_termination(&mut self, process: &impl Process) {
+        match self.ring.step() {
+            Step::Announce => {
+                self.done = true;
+                for rank in (0..=self.shared.processors).filter(|&rank| rank != process.rank()) {
+                    self.send_control(process, rank, &Message::Done).await;
+                }
+            }
+            Step::Pass(to, value) => self.send_control(process, to, &Message::Token(value)).await,
+            Step::Wait => {
+                process.wait().await;
+                self.read_arrived(process).await;
+            }
+        }
+    }
+
+    async fn send_control(&mut self, process: &impl Process, to: Rank, message: &Message) {
+        self.tally.control_messages += 1;
+        process.send(to, message.encode()).await;
+    }
+
+    fn sums(&self, rank: Rank) -> Sums {
+        Sums {
+            rank: rank as u32,
+            unshot: self.region.unshot_power().element_sum(),
+            sent: self.tally.sent.element_sum(),
+            taken: self.tally.taken.element_sum(),
+        }
+    }
+}

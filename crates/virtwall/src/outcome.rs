@@ -1,0 +1,145 @@
+//! What a run found.
+
+use desim::{Duration, Time};
+use radiosity::{Rgb, Work};
+
+use crate::compute_node::ComputeNode;
+
+/// What a run found: time, counts, energy, light.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// From the start of the computation to the moment at which the last compute node knows of its
+    /// end; initialisation is not part of it.
+    pub time: Time,
+    /// Shots of patches in their own environment.
+    pub local_shots: u64,
+    /// Shots of sources handed on from another environment, of the same processor or not.
+    pub received_shots: u64,
+    /// Sources sent from processor to processor.
+    pub messages: u64,
+    /// Their bytes.
+    pub message_bytes: u64,
+    /// Radiosity updates sent to the service node.
+    pub update_messages: u64,
+    /// Their bytes.
+    pub update_bytes: u64,
+    /// Messages of compute nodes for collection and termination.
+    pub control_messages: u64,
+    /// Where the emitted energy is.
+    pub energy: EnergyLedger,
+    /// How the end was found.
+    pub ending: Ending,
+    /// Operations counted on all nodes.
+    pub work: Work,
+    /// What each compute node did, by rank.
+    pub nodes: Vec<NodeReport>,
+    /// Radiosity in W/m², by environment and patch.
+    pub radiosity: Vec<Vec<Rgb>>,
+}
+
+/// Where the emitted energy is at the end of a run, W.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EnergyLedger {
+    /// Emitted by all patches.
+    pub emitted: Rgb,
+    /// Absorbed by patches and by backs of polygons.
+    pub absorbed: Rgb,
+    /// On patches, not shot.
+    pub unshot: Rgb,
+    /// In sources handed on and not shot again.
+    pub in_transit: Rgb,
+    /// Gone out of the scene.
+    pub escaped: Rgb,
+}
+
+impl EnergyLedger {
+    /// |emitted − (absorbed + unshot + in transit + escaped)| / emitted, colours summed; 0 when
+    /// nothing is emitted.
+    pub fn error(&self) -> f64 {
+        let found = self.absorbed + self.unshot + self.in_transit + self.escaped;
+        fraction((self.emitted - found).abs(), self.emitted)
+    }
+}
+
+fn fraction(part: Rgb, whole: Rgb) -> f64 {
+    if whole == Rgb::ZERO { 0.0 } else { part.element_sum() / whole.element_sum() }
+}
+
+/// How the end of a run was found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ending {
+    /// Announced when nothing was left to do.
+    Agreed,
+    /// Announced by the token ring while sources were still under way or queued.
+    TooEarly {
+        /// The energy in them, as a fraction of the emitted energy.
+        lost: f64,
+    },
+}
+
+/// What one compute node did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct NodeReport {
+    /// Time in kernels.
+    pub compute: Duration,
+    /// Time in sending and receiving.
+    pub overhead: Duration,
+    /// Time spent waiting until the node knew of the end.
+    pub idle: Duration,
+    /// Shots of its own patches.
+    pub local_shots: u64,
+    /// Shots of sources handed on to it.
+    pub received_shots: u64,
+}
+
+impl Outcome {
+    /// Add up what the compute nodes found; `nodes` by rank.
+    pub(crate) fn of(time: Time, nodes: &[ComputeNode], mut reports: Vec<NodeReport>) -> Outcome {
+        let sum = |count: fn(&ComputeNode) -> u64| nodes.iter().map(count).sum();
+        let problem = &nodes[0].shared.problem;
+        let mut energy = EnergyLedger { emitted: problem.emitted_power(), ..Default::default() };
+        let mut radiosity = vec![Vec::new(); problem.environments.len()];
+        let mut work = Work::NONE;
+        for (node, report) in nodes.iter().zip(&mut reports) {
+            work += node.tally.work;
+            energy.in_transit += node.tally.sent - node.tally.taken;
+            for (environment, light) in node.region.lights() {
+                energy.absorbed += light.absorbed;
+                energy.escaped += light.escaped;
+                energy.unshot += light.unshot_power();
+                let geometry = &problem.environments[environment as usize];
+                let patches = 0..geometry.patches.len() as u32;
+                radiosity[environment as usize] =
+                    patches.map(|patch| light.radiosity(geometry, patch)).collect();
+            }
+            report.local_shots = node.tally.local_shots;
+            report.received_shots = node.tally.received_shots;
+        }
+        let pending = sum(|n| n.tally.parcels_sent) - sum(|n| n.tally.parcels_taken);
+        Outcome {
+            time,
+            local_shots: sum(|n| n.tally.local_shots),
+            received_shots: sum(|n| n.tally.received_shots),
+            messages: sum(|n| n.tally.messages),
+            message_bytes: sum(|n| n.tally.message_bytes),
+            update_messages: sum(|n| n.tally.update_messages),
+            update_bytes: sum(|n| n.tally.update_bytes),
+            control_messages: sum(|n| n.tally.control_messages),
+            energy,
+            ending: match pending {
+                0 => Ending::Agreed,
+                _ => Ending::TooEarly { lost: fraction(energy.in_transit, energy.emitted) },
+            },
+            work,
+            nodes: reports,
+            radiosity,
+        }
+    }
+
+    /// Time in kernels as a fraction of all compute nodes' time.
+    pub fn busy_fraction(&self) -> f64 {
+        let all = self.time.as_seconds_f64() * self.nodes.len() as f64;
+        let busy: Duration = self.nodes.iter().map(|node| node.compute).sum();
+        if all > 0.0 { busy.as_seconds_f64() / all } else { 0.0 }
+    }
+}

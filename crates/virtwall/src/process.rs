@@ -1,0 +1,30 @@
+//! What a process on a node may do. The programs know their machine only through this.
+
+use desim::Time;
+use multicomputer::Rank;
+use radiosity::Work;
+
+/// A process on a node, simulated or real. Messages are bytes: what is not encoded does not travel.
+#[expect(async_fn_in_trait, reason = "a process stays on its own thread")]
+pub trait Process {
+    /// Its own rank.
+    fn rank(&self) -> Rank;
+
+    /// Run a kernel here; the work that it counted is charged to this node.
+    async fn compute<T>(&self, job: impl FnOnce() -> (T, Work)) -> T;
+
+    /// Send a message; costs this node its overhead, then travels.
+    async fn send(&self, to: Rank, message: Vec<u8>);
+
+    /// What has arrived and was not read yet.
+    async fn received(&self) -> Vec<Vec<u8>>;
+
+    /// Idle until something has arrived that was not read.
+    async fn wait(&self);
+
+    /// The same, but not beyond `time`; whether something has arrived.
+    async fn wait_until(&self, time: Time) -> bool;
+
+    /// The time since the program began.
+    fn now(&self) -> Time;
+}

@@ -1,0 +1,42 @@
+//! The network queue of a compute node: sources that wait for one of its environments.
+
+use crate::message::Parcel;
+use crate::rules::Selection;
+
+/// Sources received and not yet shot, in order of arrival.
+#[derive(Default)]
+pub(crate) struct Queue {
+    waiting: Vec<Parcel>,
+}
+
+impl Queue {
+    pub(crate) fn len(&self) -> usize {
+        self.waiting.len()
+    }
+
+    /// Put a parcel in. With `merge` its mask joins that of a parcel from the same shot, if one
+    /// waits for the same environment.
+    pub(crate) fn push(&mut self, parcel: Parcel, merge: bool) {
+        let same = |other: &&mut Parcel| {
+            other.environment == parcel.environment && other.source == parcel.source
+        };
+        match self.waiting.iter_mut().find(|other| merge && same(other)) {
+            Some(other) => {
+                other.mask.merge(&parcel.mask);
+                other.form_factor += parcel.form_factor;
+            }
+            None => self.waiting.push(parcel),
+        }
+    }
+
+    /// The greatest value that waits, and its place; of equals the first to arrive.
+    pub(crate) fn best(&self, selection: Selection) -> Option<(f64, usize)> {
+        let values = self.waiting.iter().map(|parcel| selection.value(&parcel.source));
+        values.zip(0..).reduce(|best, other| if other.0 > best.0 { other } else { best })
+    }
+
+    /// Take a parcel out.
+    pub(crate) fn take(&mut self, place: usize) -> Parcel {
+        self.waiting.remove(place)
+    }
+}

@@ -1,0 +1,106 @@
+//! The programs on a simulated machine.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use desim::{Duration, Simulation, Time};
+use multicomputer::{Machine, Multicomputer, Node, Rank};
+use radiosity::{Operation, Work};
+
+use crate::compute_node::compute_node;
+use crate::outcome::{NodeReport, Outcome};
+use crate::process::Process;
+use crate::run::{Run, RunError};
+use crate::service_node::service_node;
+
+/// What each operation costs a processor, seconds.
+struct Prices([f64; Operation::ALL.len()]);
+
+impl Prices {
+    fn of(machine: &Machine) -> Result<Prices, RunError> {
+        let mut prices = [0.0; Operation::ALL.len()];
+        for (price, &operation) in prices.iter_mut().zip(Operation::ALL) {
+            let seconds = machine.processor.price(operation.name());
+            *price = seconds.ok_or(RunError::Price(operation))?;
+        }
+        Ok(Prices(prices))
+    }
+
+    fn time(&self, work: &Work) -> Duration {
+        let costs = work.counts().zip(&self.0).map(|((_, times), price)| times as f64 * price);
+        Duration::from_seconds_f64(costs.sum())
+    }
+}
+
+/// A process on a simulated node.
+struct SimulatedProcess {
+    node: Node<Vec<u8>>,
+    prices: Rc<Prices>,
+}
+
+impl Process for SimulatedProcess {
+    fn rank(&self) -> Rank {
+        self.node.rank()
+    }
+
+    async fn compute<T>(&self, job: impl FnOnce() -> (T, Work)) -> T {
+        let (result, work) = job();
+        self.node.compute(self.prices.time(&work)).await;
+        result
+    }
+
+    async fn send(&self, to: Rank, message: Vec<u8>) {
+        self.node.send(to, message.len() as u64, message).await;
+    }
+
+    async fn received(&self) -> Vec<Vec<u8>> {
+        self.node.received().await
+    }
+
+    async fn wait(&self) {
+        self.node.wait().await;
+    }
+
+    async fn wait_until(&self, time: Time) -> bool {
+        self.node.wait_until(time).await
+    }
+
+    fn now(&self) -> Time {
+        self.node.now()
+    }
+}
+
+/// Run on a simulated machine.
+pub fn simulate(run: &Run, machine: &Machine) -> Result<Outcome, RunError> {
+    let (nodes, collection) = run.prepare()?;
+    let prices = Rc::new(Prices::of(machine)?);
+    let simulation = Simulation::new();
+    let handle = simulation.handle();
+    let multicomputer = Multicomputer::new(&handle, machine, run.processors)?;
+    let process =
+        |rank| SimulatedProcess { node: multicomputer.node(rank), prices: Rc::clone(&prices) };
+    let finished = Rc::new(RefCell::new(Vec::new()));
+    for (rank, node) in nodes.into_iter().enumerate() {
+        let (process, finished) = (process(rank), Rc::clone(&finished));
+        handle.spawn(format!("compute node {rank}"), async move {
+            let node = compute_node(&process, node).await;
+            process.node.finish();
+            finished.borrow_mut().push((process.rank(), process.now(), node));
+        });
+    }
+    let service = process(run.processors);
+    handle.spawn("service node", async move { service_node(&service, collection).await });
+    simulation.run()?;
+    let mut finished = finished.take();
+    finished.sort_unstable_by_key(|(rank, ..)| *rank);
+    let time = finished.iter().map(|(_, time, _)| *time).max().unwrap_or(Time::ZERO);
+    let nodes: Vec<_> = finished.into_iter().map(|(_, _, node)| node).collect();
+    let reports = multicomputer.accounts().into_iter().take(nodes.len()).map(|account| NodeReport {
+        compute: account.compute,
+        overhead: account.send_overhead + account.receive_overhead,
+        idle: account.idle,
+        ..NodeReport::default()
+    });
+    let reports = reports.collect();
+    Ok(Outcome::of(time, &nodes, reports))
+}
