@@ -131,11 +131,7 @@ impl ComputeNode {
     }
 
     /// §4.2.3: cast the rays of the pixels that are still true, and update radiosities.
-    async fn compute_illumination(
-        &mut self,
-        process: &impl Process,
-        source: &Parcel,
-    ) -> Arc<Shot> {
+    async fn compute_illumination(&mut self, process: &impl Process, source: &Parcel) -> Arc<Shot> {
         let Shared { problem, kept, on_shot, .. } = &*self.shared;
         let kernel = || {
             let environment = &problem.environments[source.environment as usize];
@@ -163,8 +159,7 @@ impl ComputeNode {
     ) {
         for (side, outgoing) in Side::ALL.into_iter().zip(&shot.outgoing) {
             let Some(outgoing) = outgoing else { continue };
-            let environment =
-                self.shared.problem.decomposition.neighbour(parcel.environment, side);
+            let environment = self.shared.problem.decomposition.neighbour(parcel.environment, side);
             let onward = Parcel {
                 environment,
                 source: parcel.source,
@@ -175,7 +170,7 @@ impl ComputeNode {
             self.tally.sent += onward.source.power * onward.form_factor;
             let owner = self.shared.owners[environment as usize];
             if owner == process.rank() {
-                self.queue.push(onward, self.shared.rules.merge_masks);
+                self.enqueue(onward);
             } else {
                 let bytes = Message::Source(Box::new(onward)).encode();
                 self.tally.messages += 1;
@@ -203,9 +198,7 @@ impl ComputeNode {
             // Processes send each other nothing but encoded messages.
             let Ok(message) = Message::decode(&bytes) else { continue };
             match message {
-                Message::Source(parcel) => {
-                    self.queue.push(*parcel, self.shared.rules.merge_masks);
-                }
+                Message::Source(parcel) => self.enqueue(*parcel),
                 Message::Collect => {
                     let sums = Message::Sums(self.sums(process.rank()));
                     self.send_control(process, self.shared.service_node(), &sums).await;
@@ -215,6 +208,13 @@ impl ComputeNode {
                 Message::Done => self.done = true,
                 Message::Update(_) | Message::Sums(_) => {}
             }
+        }
+    }
+
+    fn enqueue(&mut self, parcel: Parcel) {
+        if self.queue.push(parcel, self.shared.rules.merge_masks) {
+            // Taken up by another parcel, and with it when that is shot.
+            self.tally.parcels_taken += 1;
         }
     }
 

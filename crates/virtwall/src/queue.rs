@@ -15,18 +15,19 @@ impl Queue {
     }
 
     /// Put a parcel in. With `merge` its mask joins that of a parcel from the same shot, if one
-    /// waits for the same environment.
-    pub(crate) fn push(&mut self, parcel: Parcel, merge: bool) {
+    /// waits for the same environment; returns whether it did.
+    pub(crate) fn push(&mut self, parcel: Parcel, merge: bool) -> bool {
         let same = |other: &&mut Parcel| {
             other.environment == parcel.environment && other.source == parcel.source
         };
-        match self.waiting.iter_mut().find(|other| merge && same(other)) {
-            Some(other) => {
-                other.mask.merge(&parcel.mask);
-                other.form_factor += parcel.form_factor;
-            }
-            None => self.waiting.push(parcel),
-        }
+        let merged = self.waiting.iter_mut().find(|other| merge && same(other));
+        let Some(other) = merged else {
+            self.waiting.push(parcel);
+            return false;
+        };
+        other.mask.merge(&parcel.mask);
+        other.form_factor += parcel.form_factor;
+        true
     }
 
     /// The greatest value that waits, and its place; of equals the first to arrive.

@@ -69,8 +69,7 @@ impl Region {
         let problem = &self.problem;
         let held = &mut self.holdings[holding];
         let environment = &problem.environments[held.environment as usize];
-        let source =
-            held.light.take_source(&problem.space, environment, held.environment, patch);
+        let source = held.light.take_source(&problem.space, environment, held.environment, patch);
         held.best = best_patch(problem, self.selection, held.environment, &held.light);
         let mask = Mask::all(problem.hemisphere.pixels());
         Parcel { environment: held.environment, source, mask, form_factor: 1.0 }

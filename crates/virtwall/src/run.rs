@@ -64,9 +64,9 @@ impl Run {
         }
         let owners = self.rules.mapping.owners(environments as u32, processors);
         let region = |rank: Option<Rank>, threshold: f64| {
-            let mine = (0u32..).zip(&owners).filter(move |&(_, &owner)| {
-                rank.is_none_or(|rank| owner == rank)
-            });
+            let mine = (0u32..)
+                .zip(&owners)
+                .filter(move |&(_, &owner)| rank.is_none_or(|rank| owner == rank));
             let mine = mine.map(|(environment, _)| environment);
             Region::new(&self.problem, mine, self.rules.selection, threshold)
         };

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use desim::{Duration, Simulation, Time};
-use multicomputer::{Machine, Multicomputer, Node, Rank};
+use multicomputer::{Machine, Multicomputer, Network, Node, Rank};
 use radiosity::{Operation, Work};
 
 use crate::compute_node::compute_node;
@@ -72,11 +72,20 @@ impl Process for SimulatedProcess {
 
 /// Run on a simulated machine.
 pub fn simulate(run: &Run, machine: &Machine) -> Result<Outcome, RunError> {
+    simulate_over(run, machine, machine.network.build(machine.mesh()))
+}
+
+/// Run on a simulated machine with another network than its own.
+pub fn simulate_over(
+    run: &Run,
+    machine: &Machine,
+    network: Box<dyn Network>,
+) -> Result<Outcome, RunError> {
     let (nodes, collection) = run.prepare()?;
     let prices = Rc::new(Prices::of(machine)?);
     let simulation = Simulation::new();
     let handle = simulation.handle();
-    let multicomputer = Multicomputer::new(&handle, machine, run.processors)?;
+    let multicomputer = Multicomputer::with_network(&handle, machine, run.processors, network)?;
     let process =
         |rank| SimulatedProcess { node: multicomputer.node(rank), prices: Rc::clone(&prices) };
     let finished = Rc::new(RefCell::new(Vec::new()));
@@ -95,12 +104,13 @@ pub fn simulate(run: &Run, machine: &Machine) -> Result<Outcome, RunError> {
     finished.sort_unstable_by_key(|(rank, ..)| *rank);
     let time = finished.iter().map(|(_, time, _)| *time).max().unwrap_or(Time::ZERO);
     let nodes: Vec<_> = finished.into_iter().map(|(_, _, node)| node).collect();
-    let reports = multicomputer.accounts().into_iter().take(nodes.len()).map(|account| NodeReport {
-        compute: account.compute,
-        overhead: account.send_overhead + account.receive_overhead,
-        idle: account.idle,
-        ..NodeReport::default()
-    });
+    let reports =
+        multicomputer.accounts().into_iter().take(nodes.len()).map(|account| NodeReport {
+            compute: account.compute,
+            overhead: account.send_overhead + account.receive_overhead,
+            idle: account.idle,
+            ..NodeReport::default()
+        });
     let reports = reports.collect();
     Ok(Outcome::of(time, &nodes, reports))
 }

@@ -95,9 +95,7 @@ pub fn run_on_threads(run: &Run) -> Result<Outcome, RunError> {
         let threads: Vec<_> = processes
             .into_iter()
             .zip(nodes)
-            .map(|(process, node)| {
-                scope.spawn(move || finish(compute_node(&process, node)))
-            })
+            .map(|(process, node)| scope.spawn(move || finish(compute_node(&process, node))))
             .collect();
         let joined = threads.into_iter().map(|thread| thread.join().ok().flatten());
         joined.collect::<Option<Vec<_>>>()

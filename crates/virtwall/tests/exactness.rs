@@ -95,9 +95,7 @@ fn case() -> impl Strategy<Value = (Scene, ProblemOptions)> {
     let shapes = proptest::collection::vec(shape(), 0..12);
     let fractions = [0.0..1.0f64, 0.0..1.0f64, 0.0..1.0f64];
     (shapes, cells, fractions, hemisphere()).prop_map(|(shapes, cells, fractions, hemisphere)| {
-        let cut = std::array::from_fn(|axis| {
-            1 + (fractions[axis] * f64::from(cells[axis])) as u32
-        });
+        let cut = std::array::from_fn(|axis| 1 + (fractions[axis] * f64::from(cells[axis])) as u32);
         let patch_size = PatchSize { reflector: SIZE, emitter: SIZE };
         (build(&shapes, cells), ProblemOptions { patch_size, cells, cut, hemisphere })
     })
@@ -231,7 +229,8 @@ fn rays_in_the_plane_between_two_environments_have_one_owner() {
     // A lamp of odd patch count along x whose middle patch is centred on the plane of the cut.
     let x = planes[0][2];
     let mut faces = shell;
-    let lamp = [[x - 0.5, -0.5, 1.9], [x - 0.5, 0.5, 1.9], [x + 0.5, 0.5, 1.9], [x + 0.5, -0.5, 1.9]];
+    let lamp =
+        [[x - 0.5, -0.5, 1.9], [x - 0.5, 0.5, 1.9], [x + 0.5, 0.5, 1.9], [x + 0.5, -0.5, 1.9]];
     faces.push(face(&lamp, 1));
     let scene = scene(&faces, vec![grey(0.5, 0.0), grey(0.0, 1.0)]);
     let hemisphere = Hemisphere::new(HemisphereKind::Concentric, 181 * 181, false).unwrap();

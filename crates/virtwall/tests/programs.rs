@@ -1,0 +1,169 @@
+//! The programs as a whole: on the simulated Paragon and on threads.
+
+mod common;
+
+use std::sync::Arc;
+
+use common::{grey, problem, scene, sides, two_rooms};
+use desim::{Duration, Time};
+use multicomputer::{Delivery, Machine, Network, Place};
+use virtwall::{
+    Ending, KeptShots, Mapping, Outcome, Problem, Rules, Run, RunError, Selection, Ties,
+    run_on_threads, simulate, simulate_over,
+};
+
+fn paragon() -> Machine {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../machines/paragon-xps.json");
+    Machine::from_json(&std::fs::read_to_string(path).unwrap(), path).unwrap()
+}
+
+fn rules() -> Rules {
+    Rules {
+        selection: Selection::Energy,
+        ties: Ties::ReceivedFirst,
+        patch_threshold: 0.002,
+        energy_threshold: 0.0,
+        collect_every: Duration::from_seconds_f64(1.0),
+        radiosity_updates: true,
+        merge_masks: false,
+        mapping: Mapping::Blocks,
+    }
+}
+
+fn run(problem: &Arc<Problem>, processors: usize, rules: Rules) -> Run {
+    Run {
+        problem: Arc::clone(problem),
+        processors,
+        rules,
+        kept: Arc::new(KeptShots::new(1 << 30)),
+        on_shot: Arc::new(|| ()),
+    }
+}
+
+fn rooms(cut: [u32; 3]) -> Arc<Problem> {
+    Arc::new(problem(two_rooms(), [8, 4, 4], cut, 1_024, 0.5))
+}
+
+/// Relative L2 difference of two radiosity solutions of the same problem.
+fn difference(a: &Outcome, b: &Outcome) -> f64 {
+    let pairs = a.radiosity.iter().flatten().zip(b.radiosity.iter().flatten());
+    let (mut apart, mut size) = (0.0, 0.0);
+    for (x, y) in pairs {
+        apart += (*x - *y).length_squared();
+        size += x.length_squared();
+    }
+    (apart / size).sqrt()
+}
+
+#[test]
+fn energy_closes_on_any_number_of_processors() {
+    let problem = rooms([4, 2, 1]);
+    for processors in [1, 2, 3, 8] {
+        for merge_masks in [false, true] {
+            let rules = Rules { merge_masks, ..rules() };
+            let outcome = simulate(&run(&problem, processors, rules), &paragon()).unwrap();
+            assert!(outcome.energy.error() < 1e-9, "{:?}", outcome.energy);
+            assert_eq!(outcome.ending, Ending::Agreed);
+            assert!(outcome.local_shots > 20 && outcome.time > Time::ZERO);
+            for node in &outcome.nodes {
+                assert!(node.compute + node.overhead + node.idle <= outcome.time - Time::ZERO);
+            }
+        }
+    }
+}
+
+/// A kept shot is the shot itself; and the same run twice is the same to the bit.
+#[test]
+fn keeping_shots_changes_nothing() {
+    let problem = rooms([2, 2, 2]);
+    let shared = run(&problem, 4, rules());
+    let outcomes = [1 << 30, 0, 20_000].map(|budget| {
+        let run = Run { kept: Arc::new(KeptShots::new(budget)), ..shared.clone() };
+        simulate(&run, &paragon()).unwrap()
+    });
+    let again = simulate(&shared, &paragon()).unwrap();
+    for other in outcomes.iter().chain([&again]) {
+        assert_eq!(other.time, outcomes[0].time);
+        assert_eq!(other.radiosity, outcomes[0].radiosity);
+        assert_eq!(other.work, outcomes[0].work);
+    }
+}
+
+/// §5.2: virtual interfaces do not change the light. With cut planes through no patch the meshes
+/// are the same, and so must the radiosities be, within what the order of shots changes.
+#[test]
+fn threads_and_simulation_find_the_same_light() {
+    let problem = rooms([4, 2, 1]);
+    let fine = Rules { patch_threshold: 1e-4, ..rules() };
+    let simulated = simulate(&run(&problem, 4, fine.clone()), &paragon()).unwrap();
+    let sequential = simulate(&run(&problem, 1, fine.clone()), &paragon()).unwrap();
+    let threads = run_on_threads(&run(&problem, 4, fine)).unwrap();
+    assert!(threads.energy.error() < 1e-9);
+    // What stays below the threshold is unshot, in another patch each time.
+    assert!(difference(&simulated, &sequential) < 2e-3, "{}", difference(&simulated, &sequential));
+    if threads.ending == Ending::Agreed {
+        assert!(difference(&simulated, &threads) < 2e-3, "{}", difference(&simulated, &threads));
+    }
+}
+
+/// A global threshold stops selection through the service node.
+#[test]
+fn the_service_node_stops_selection() {
+    let problem = rooms([2, 2, 1]);
+    let collect_every = Duration::from_seconds_f64(0.01);
+    let rules = Rules { patch_threshold: 0.0, energy_threshold: 0.2, collect_every, ..rules() };
+    let outcome = simulate(&run(&problem, 4, rules), &paragon()).unwrap();
+    let left = outcome.energy.unshot.element_sum() / outcome.energy.emitted.element_sum();
+    assert!(left < 0.2 && left > 0.01, "{left}");
+    assert!(outcome.energy.error() < 1e-9);
+}
+
+/// A network with a lane of its own for short messages: long ones take ten seconds.
+struct SlowMasks;
+
+impl Network for SlowMasks {
+    fn deliver(&mut self, now: Time, _: Place, _: Place, bytes: u64) -> Delivery {
+        let span = Duration::from_seconds_f64(if bytes > 100 { 10.0 } else { 1e-6 });
+        Delivery { sender_free: now, arrives: now + span }
+    }
+
+    fn receive_overhead(&self) -> Duration {
+        Duration::ZERO
+    }
+}
+
+/// When the token overtakes sources, the paper's rule ends the run too early; the run says so, with
+/// the energy lost.
+#[test]
+fn a_premature_end_is_told() {
+    let problem = rooms([4, 2, 1]);
+    let run = run(&problem, 8, rules());
+    let outcome = simulate_over(&run, &paragon(), Box::new(SlowMasks)).unwrap();
+    let Ending::TooEarly { lost } = outcome.ending else { panic!("{:?}", outcome.ending) };
+    assert!(lost > 0.0 && lost < 1.0, "{lost}");
+    let in_transit = outcome.energy.in_transit.element_sum();
+    assert!((in_transit / outcome.energy.emitted.element_sum() - lost).abs() < 1e-15);
+    assert!(outcome.energy.error() < 1e-9);
+}
+
+#[test]
+fn no_light_ends_at_once() {
+    let dark = scene(&sides([0.0; 3], [4.0; 3], [0; 6], true), vec![grey(0.5, 0.0)]);
+    let problem = Arc::new(problem(dark, [4, 4, 4], [2, 2, 1], 64, 1.0));
+    let outcome = simulate(&run(&problem, 4, rules()), &paragon()).unwrap();
+    assert_eq!((outcome.local_shots, outcome.energy.error()), (0, 0.0));
+    assert_eq!(outcome.ending, Ending::Agreed);
+}
+
+#[test]
+fn impossible_numbers_of_processors_are_refused() {
+    let problem = rooms([2, 1, 1]);
+    for processors in [0, 3] {
+        let error = simulate(&run(&problem, processors, rules()), &paragon()).unwrap_err();
+        assert!(matches!(error, RunError::Processors { environments: 2, .. }), "{error}");
+    }
+    let mut machine = paragon();
+    machine.processor.cycles.remove("ray");
+    let error = simulate(&run(&problem, 2, rules()), &machine).unwrap_err();
+    assert!(error.to_string().contains("\"ray\""), "{error}");
+}
