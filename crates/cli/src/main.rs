@@ -1,2 +1,71 @@
-//! The `virtwall` command.
-fn main() {}
+//! The `virtwall` command: arguments, progress, exit codes.
+//!
+//! Exit codes: 0 all is well; 1 a run failed; 2 bad input, and nothing was written.
+
+mod check;
+mod exit;
+mod plot;
+mod progress;
+mod run;
+mod scene_make;
+mod scene_show;
+mod schema;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use crate::exit::{Exit, say};
+
+/// Simulates an Intel Paragon XP/S running the parallel radiosity algorithm of Inria RR-3008.
+#[derive(Parser)]
+#[command(name = "virtwall", version)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Run an experiment and write its results.
+    Run(run::Arguments),
+    /// Draw the plots and the report of saved results anew.
+    Plot(plot::Arguments),
+    /// Validate experiments, machines, scenes and OBJ files, and say what each is.
+    Check(check::Arguments),
+    /// Make a scene of the paper, or look at any scene.
+    #[command(subcommand)]
+    Scene(SceneCommand),
+    /// Print the JSON Schema of a kind of file.
+    Schema(schema::Arguments),
+}
+
+#[derive(Subcommand)]
+enum SceneCommand {
+    /// Write a scene of RR-3008, section 5.1, as OBJ and MTL files.
+    Make(scene_make::Arguments),
+    /// Print what a scene holds, and draw it.
+    Show(scene_show::Arguments),
+}
+
+fn main() -> ExitCode {
+    let done = match Arguments::parse().command {
+        Command::Run(arguments) => run::run(&arguments),
+        Command::Plot(arguments) => plot::run(&arguments),
+        Command::Check(arguments) => check::run(&arguments),
+        Command::Scene(SceneCommand::Make(arguments)) => scene_make::run(&arguments),
+        Command::Scene(SceneCommand::Show(arguments)) => scene_show::run(&arguments),
+        Command::Schema(arguments) => schema::run(&arguments),
+    };
+    match done {
+        Ok(text) => {
+            say(&text);
+            ExitCode::SUCCESS
+        }
+        Err(Exit { code, output, message }) => {
+            say(&output);
+            exit::complain(&message);
+            ExitCode::from(code)
+        }
+    }
+}

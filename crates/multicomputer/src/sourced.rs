@@ -28,6 +28,7 @@ pub(crate) enum Provenance {
 /// A number, how it is known, and where it comes from.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object of value, provenance and source")]
+#[schemars(rename = "Sourced{T}")]
 pub(crate) struct Sourced<T> {
     /// The number, with its unit where it has one.
     pub(crate) value: T,

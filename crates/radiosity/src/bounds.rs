@@ -17,7 +17,9 @@ impl Bounds {
 
     /// The smallest box around the points.
     pub fn of(points: impl IntoIterator<Item = DVec3>) -> Bounds {
-        points.into_iter().fold(Bounds::EMPTY, |b, p| Bounds { min: b.min.min(p), max: b.max.max(p) })
+        points
+            .into_iter()
+            .fold(Bounds::EMPTY, |b, p| Bounds { min: b.min.min(p), max: b.max.max(p) })
     }
 
     /// Edge lengths.

@@ -24,7 +24,7 @@ pub struct Camera {
 impl Camera {
     /// Looks down from the front right, so that the box just fills the picture; z is up.
     pub fn overview(bounds: &Bounds) -> Camera {
-        Camera::around(bounds, DVec3::new(-0.45, 0.9, -1.1), 1200, 800)
+        Camera::around(bounds, DVec3::new(-0.25, 0.9, -1.1), 1200, 800)
     }
 
     /// Looks along a direction, so that the box just fills the picture; z is up.

@@ -36,7 +36,7 @@ pub use light::Light;
 pub use mask::Mask;
 pub use mtl::DEFAULT_REFLECTANCE;
 pub use obj::load_obj;
-pub use picture::{Exposure, Picture, PictureError, PictureOptions, headlight, render};
+pub use picture::{Exposure, Picture, PictureError, PictureOptions, render, studio_light};
 pub use scene::{Face, Material, Plane, Polygon, Rgb, Scene};
 pub use scene_error::SceneError;
 pub use shoot::{End, Outgoing, Shot, Source, cast, shoot};

@@ -89,12 +89,12 @@ pub fn render(
 /// Radiosity seen at a sample, if anything is.
 type Sample = Option<Vec3>;
 
-/// Middle grey of what is seen, W/m². What is almost black does not count for less than a
-/// thousandth of the mean, or it would make all the rest white.
+/// Middle grey of what is seen, W/m². What is all but black counts for a twentieth of the
+/// mean, or rooms not lit yet would turn the others white.
 fn geometric_mean(samples: &[Sample]) -> f64 {
     let seen = || samples.iter().flatten().map(|rgb| luminance(rgb.as_dvec3()));
     let count = seen().count().max(1) as f64;
-    let least = 1e-3 * seen().sum::<f64>() / count;
+    let least = 0.05 * seen().sum::<f64>() / count;
     if least > 0.0 {
         libm::exp(seen().map(|l| libm::log(l.max(least))).sum::<f64>() / count)
     } else {
@@ -123,12 +123,14 @@ fn develop(samples: &[Sample], width: usize, middle: f64) -> Vec<u8> {
     rgb
 }
 
-/// From radiosity over middle grey to the screen's 0..1 (Reinhard et al. 2002, equation 4): middle
-/// grey becomes about 18 %, and a hundred times that is white.
+/// From radiosity over middle grey to the screen's 0..1: Reinhard et al. 2002, equation 4, on the
+/// luminance, so that colours stay what they are. Six times middle grey is white.
 fn tone(relative: Rgb) -> Rgb {
-    const WHITE: f64 = 0.18 * 100.0;
-    let light = relative * 0.18;
-    (light * (1.0 + light / (WHITE * WHITE)) / (1.0 + light)).clamp(Rgb::ZERO, Rgb::ONE)
+    const KEY: f64 = 0.35;
+    const WHITE: f64 = KEY * 6.0;
+    let light = luminance(relative) * KEY;
+    let scale = KEY * (1.0 + light / (WHITE * WHITE)) / (1.0 + light);
+    (relative * scale).clamp(Rgb::ZERO, Rgb::ONE)
 }
 
 /// sRGB's transfer function, in eight bits.
@@ -141,15 +143,15 @@ fn srgb(linear: f64) -> u8 {
     (encoded * 255.0 + 0.5) as u8
 }
 
-/// Colours for a scene that is not solved: lights glow, everything else is lit from the eye.
-pub fn headlight(scene: &Scene, camera: &Camera) -> impl Fn(u32, DVec3) -> Rgb {
-    let eye = camera.eye;
-    move |polygon, point| {
+/// Colours for a scene that is not solved: lights glow, all else is lit from above and the sides,
+/// so that no two faces of a box look alike.
+pub fn studio_light(scene: &Scene) -> impl Fn(u32, DVec3) -> Rgb {
+    let sun = DVec3::new(0.45, -0.25, 0.8);
+    move |polygon, _| {
         let polygon = &scene.polygons[polygon as usize];
         let material = scene.material(polygon);
-        let cosine = polygon.plane.normal.dot((eye - point).normalize_or_zero());
         let glow = material.emission / material.emission.max_element().max(f64::MIN_POSITIVE);
-        material.reflectance * (0.3 + 0.7 * cosine) + glow * 8.0
+        material.reflectance * (1.0 + 0.8 * polygon.plane.normal.dot(sun)) + glow * 8.0
     }
 }
 

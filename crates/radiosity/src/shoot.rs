@@ -50,6 +50,9 @@ pub struct Shot {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outgoing {
     /// True for the pixels whose ray first leaves through this interface.
+    ///
+    /// Choice C12: §4.2.3 says "hits the plane". Taken of the unbounded plane, one pixel would reach
+    /// several neighbours and its energy would double.
     pub mask: Mask,
     /// Their form factor together.
     pub form_factor: f64,
@@ -97,9 +100,8 @@ pub fn shoot(
         match cast(space, environment, &ray, source.polygon, &mut shot.work) {
             End::Hit { polygon, distance } => {
                 let point = ray.origin + ray.direction * distance;
-                let patch = space.facets.faces(polygon, &ray).then(|| {
-                    environment.patch_at(polygon, point)
-                });
+                let patch =
+                    space.facets.faces(polygon, &ray).then(|| environment.patch_at(polygon, point));
                 match patch.flatten() {
                     Some(patch) => form_factors[patch as usize] += weight,
                     None => shot.backs += weight,

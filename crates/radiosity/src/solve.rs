@@ -24,9 +24,13 @@ pub fn solve(
     let mut shots = 0;
     while shots < most_shots && light.unshot_power().element_sum() > goal {
         let patches = light.unshot.iter().enumerate();
-        let Some((patch, _)) = patches.reduce(|best, other| {
-            if other.1.element_sum() > best.1.element_sum() { other } else { best }
-        }) else {
+        let Some((patch, _)) =
+            patches.reduce(
+                |best, other| {
+                    if other.1.element_sum() > best.1.element_sum() { other } else { best }
+                },
+            )
+        else {
             break;
         };
         let source = light.take_source(space, environment, 0, patch as u32);

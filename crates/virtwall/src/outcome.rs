@@ -10,6 +10,8 @@ use crate::compute_node::ComputeNode;
 pub struct Outcome {
     /// From the start of the computation to the moment at which the last compute node knows of its
     /// end; initialisation is not part of it.
+    ///
+    /// Choice C15: RR-3008 says "computing times".
     pub time: Time,
     /// Shots of patches in their own environment.
     pub local_shots: u64,

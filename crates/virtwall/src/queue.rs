@@ -31,6 +31,9 @@ impl Queue {
     }
 
     /// The greatest value that waits, and its place; of equals the first to arrive.
+    ///
+    /// Choice C13: a received source is worth its emitter's whole energy, however few pixels are
+    /// left: that is what the message states.
     pub(crate) fn best(&self, selection: Selection) -> Option<(f64, usize)> {
         let values = self.waiting.iter().map(|parcel| selection.value(&parcel.source));
         values.zip(0..).reduce(|best, other| if other.0 > best.0 { other } else { best })

@@ -30,7 +30,9 @@ pub(crate) enum Step {
 }
 
 impl Ring {
-    /// The first node holds the token at first, with a value that ends nothing: a round must come.
+    /// The first node holds the token at first, with a value that ends nothing.
+    ///
+    /// Choice C14: it starts the first round when it first has nothing to compute.
     pub(crate) fn new(rank: Rank, nodes: usize) -> Ring {
         Ring { rank, nodes, has_sent: false, token: (rank == 0).then_some(false) }
     }

@@ -1,0 +1,94 @@
+//! `virtwall scene show`: what a scene holds, in numbers and as a picture.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use lab::OpenScene;
+use radiosity::{
+    Camera, Hemisphere, HemisphereKind, LocalEnvironment, PatchSize, Picture, PictureError,
+    PictureOptions, Rgb, Space, studio_light, render, solve,
+};
+
+use crate::exit::Exit;
+
+/// A picture needs no more light than this: a tenth of it may still be unshot.
+const UNSHOT: f64 = 0.1;
+/// And no more shots than this.
+const MOST_SHOTS: u64 = 5_000;
+/// Rays a shot of a picture.
+const PIXELS: u32 = 4_096;
+
+/// Which scene, and what to draw of it.
+#[derive(Args)]
+pub struct Arguments {
+    /// Name of a scene, or path to a scene description (.json) or an OBJ file
+    scene: String,
+    /// Draw a picture to this PNG file
+    #[arg(long, value_name = "OUT")]
+    png: Option<PathBuf>,
+    /// Leave out of the picture what lies above this height, in metres
+    #[arg(long, value_name = "Z", allow_hyphen_values = true)]
+    cut_above: Option<f64>,
+    /// Show lights and materials, not solved [the default]
+    #[arg(long, conflicts_with = "solved")]
+    emitted: bool,
+    /// Show the light after a tenth of it is left to shoot
+    #[arg(long)]
+    solved: bool,
+}
+
+/// Draws the picture, if asked to; returns the numbers.
+pub fn run(arguments: &Arguments) -> Result<String, Exit> {
+    if arguments.cut_above.is_some_and(|height| !height.is_finite()) {
+        return Err(Exit::bad_input("--cut-above: not a height; expected metres, such as 2.5"));
+    }
+    let open = OpenScene::load(&arguments.scene)?;
+    let text = numbers(&open);
+    if let Some(path) = &arguments.png {
+        let picture = picture(&open, arguments).map_err(Exit::bad_input)?;
+        let bytes = picture.encode_png().map_err(Exit::failure)?;
+        lab::write_file(path, &bytes).map_err(Exit::bad_input)?;
+    }
+    Ok(text)
+}
+
+fn numbers(open: &OpenScene) -> String {
+    let scene = &open.scene;
+    let world = |local: Rgb| (local + scene.origin).to_array().map(|c| format!("{c:.2}")).join(" ");
+    let power = scene.emitted_power().to_array().map(|watts| format!("{watts:.1}")).join(" ");
+    let lights = scene.polygons.iter().filter(|p| scene.material(p).emission != Rgb::ZERO).count();
+    let [x, y, z] = open.cells;
+    let mut text = String::new();
+    let mut line = |name: &str, value: String| text += &format!("{name:<16}{value}\n");
+    open.title.iter().for_each(|title| line("title", title.clone()));
+    line("polygons", format!("{}, {lights} of them lights", scene.polygons.len()));
+    line("vertices", scene.vertices.len().to_string());
+    line("materials", scene.materials.len().to_string());
+    line("objects", scene.objects.len().to_string());
+    line("bounds", format!("{} to {} m", world(scene.bounds.min), world(scene.bounds.max)));
+    line("area", format!("{:.1} m²", scene.area()));
+    line("emitted power", format!("{power} W (red, green, blue)"));
+    line("patch size", format!("{:.3} m, of lights {:.3} m", open.patch_size, open.emitter_patch_size));
+    line("cells", format!("{x} x {y} x {z}"));
+    open.warnings.iter().for_each(|warning| line("warning", warning.clone()));
+    text
+}
+
+fn picture(open: &OpenScene, arguments: &Arguments) -> Result<Picture, PictureError> {
+    let camera = Camera::overview(&open.scene.bounds);
+    let cut_above = arguments.cut_above.map(|height| height - open.scene.origin.z);
+    let options = PictureOptions { cut_above, ..PictureOptions::default() };
+    if !arguments.solved {
+        return render(&open.scene, &camera, studio_light(&open.scene), options);
+    }
+    let space = Space::new(open.scene.clone(), open.cells);
+    let size = PatchSize { reflector: open.patch_size, emitter: open.emitter_patch_size };
+    let whole = LocalEnvironment::new(&space, space.grid.whole(), size);
+    let hemisphere = Hemisphere::new(HemisphereKind::Fibonacci, PIXELS, true)
+        .expect("4096 is a number of pixels that a Fibonacci disc can have");
+    let (light, _) = solve(&space, &whole, &hemisphere, UNSHOT, MOST_SHOTS);
+    let colour = |polygon, point| {
+        whole.patch_at(polygon, point).map_or(Rgb::ZERO, |patch| light.radiosity(&whole, patch))
+    };
+    render(&space.scene, &camera, colour, options)
+}

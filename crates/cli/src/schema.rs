@@ -1,0 +1,33 @@
+//! `virtwall schema`: what editors complete our files with.
+
+use clap::{Args, ValueEnum};
+
+use crate::exit::Exit;
+
+/// Which schema.
+#[derive(Args)]
+pub struct Arguments {
+    /// The kind of file
+    kind: Kind,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Kind {
+    /// Experiment files
+    Experiment,
+    /// Machine descriptions
+    Machine,
+    /// Scene descriptions
+    Scene,
+}
+
+/// Returns the schema.
+pub fn run(arguments: &Arguments) -> Result<String, Exit> {
+    let schema = match arguments.kind {
+        Kind::Experiment => lab::experiment_schema(),
+        Kind::Machine => multicomputer::machine_schema(),
+        Kind::Scene => lab::scene_schema(),
+    };
+    let text = serde_json::to_string_pretty(&schema).map_err(Exit::failure)?;
+    Ok(text + "\n")
+}

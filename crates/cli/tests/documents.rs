@@ -1,0 +1,92 @@
+//! The documents are true: crates/README.md names files and items that exist, every section and
+//! figure of RR-3008, and every choice that the code marks.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn crates() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+fn readme() -> String {
+    fs::read_to_string(crates().join("README.md")).unwrap()
+}
+
+/// Rows of the table whose header starts with `first`, by columns.
+fn table(text: &str, first: &str) -> Vec<Vec<String>> {
+    let rows = text.lines().skip_while(|line| !line.starts_with(&format!("| {first}"))).skip(2);
+    let cells = |line: &str| line.trim_matches('|').split('|').map(|c| c.trim().to_owned()).collect();
+    rows.take_while(|line| line.starts_with('|')).map(cells).collect()
+}
+
+fn defines(source: &str, item: &str) -> bool {
+    let starts = ["fn", "struct", "enum", "trait", "const", "type"].map(|k| format!("{k} {item}"));
+    let field = format!("pub {item}:");
+    source.lines().any(|line| {
+        let ends = |rest: &str| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_');
+        line.trim_start().starts_with(&field)
+            || starts.iter().any(|s| line.split_once(s.as_str()).is_some_and(|(_, rest)| ends(rest)))
+    })
+}
+
+#[test]
+fn the_map_names_what_exists() {
+    for row in table(&readme(), "RR-3008") {
+        let source = fs::read_to_string(crates().join(&row[1])).unwrap_or_default();
+        assert!(defines(&source, &row[2]), "{} is not in crates/{}", row[2], row[1]);
+    }
+}
+
+#[test]
+fn the_map_names_all_of_the_paper() {
+    let rows = table(&readme(), "RR-3008");
+    let figures = (1..=12).map(|i| format!("Figure {i}"));
+    let sections = [
+        "§3", "§3.1", "§3.2", "§3.3", "§3.4", "§4", "§4.1", "§4.2", "§4.2.1", "§4.2.2", "§4.2.3",
+        "§4.2.4", "§5.1", "§5.2", "§5.3", "Table 1",
+    ];
+    for part in figures.chain(sections.map(str::to_owned)) {
+        let named = |row: &Vec<String>| {
+            row[0].strip_prefix(&part).is_some_and(|rest| rest.is_empty() || rest.starts_with([' ', ',']))
+        };
+        assert!(rows.iter().any(named), "{part} is not in the map");
+    }
+}
+
+fn rust_files(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            rust_files(&path, found);
+        } else if path.extension().is_some_and(|e| e == "rs") {
+            found.push(path);
+        }
+    }
+}
+
+#[test]
+fn every_choice_in_the_code_is_listed() {
+    let listed: BTreeSet<String> = table(&readme(), "choice")
+        .into_iter()
+        .filter_map(|row| row[0].split(' ').next().map(str::to_owned))
+        .collect();
+    let mut files = Vec::new();
+    for entry in fs::read_dir(crates()).unwrap() {
+        let source = entry.unwrap().path().join("src");
+        if source.is_dir() {
+            rust_files(&source, &mut files);
+        }
+    }
+    let mut marked = BTreeSet::new();
+    for file in files {
+        let text = fs::read_to_string(&file).unwrap();
+        for rest in text.split("Choice C").skip(1) {
+            let number: String = rest.chars().take_while(char::is_ascii_digit).collect();
+            if !number.is_empty() {
+                marked.insert(format!("C{number}"));
+            }
+        }
+    }
+    assert_eq!(marked, listed);
+}

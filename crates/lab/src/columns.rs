@@ -1,0 +1,91 @@
+//! The columns of runs.csv: which there are, and what each holds.
+
+use serde_json::Value;
+
+use crate::figures::Figures;
+use crate::sweep::Axis;
+
+/// The first columns, always these, in this order.
+pub const FIRST: [&str; 14] = [
+    "scene",
+    "processors",
+    "local_environments",
+    "seed",
+    "time_s",
+    "speed_up",
+    "paper_time_s",
+    "paper_speed_up",
+    "local_shots",
+    "received_shots",
+    "messages",
+    "message_bytes",
+    "busy_fraction",
+    "energy_error",
+];
+
+/// The columns after those of the swept fields.
+pub const LAST: [&str; 13] = [
+    "efficiency",
+    "update_messages",
+    "update_bytes",
+    "control_messages",
+    "ending",
+    "energy_lost",
+    "patches",
+    "absorbed",
+    "unshot",
+    "in_transit",
+    "escaped",
+    "operations",
+    "failure",
+];
+
+/// All columns of a sweep, in order: the first ones, swept fields not among them, the last ones.
+pub fn names(axes: &[Axis]) -> Vec<String> {
+    let swept = axes.iter().map(|axis| axis.place.to_string());
+    let swept = swept.filter(|name| !FIRST.contains(&name.as_str()));
+    let first = FIRST.iter().map(|&name| name.to_owned());
+    first.chain(swept).chain(LAST.iter().map(|&name| name.to_owned())).collect()
+}
+
+/// What a figure's column holds; `None` if the column is no figure of a run by itself.
+pub fn figure(figures: &Figures, column: &str) -> Option<String> {
+    let energy = &figures.energy;
+    Some(match column {
+        "time_s" => optional(figures.time_s, 6),
+        "local_shots" => figures.local_shots.to_string(),
+        "received_shots" => figures.received_shots.to_string(),
+        "messages" => figures.messages.to_string(),
+        "message_bytes" => figures.message_bytes.to_string(),
+        "busy_fraction" => optional(figures.busy_fraction, 6),
+        "energy_error" => format!("{:e}", figures.energy_error),
+        "update_messages" => figures.update_messages.to_string(),
+        "update_bytes" => figures.update_bytes.to_string(),
+        "control_messages" => figures.control_messages.to_string(),
+        "ending" => figures.too_early.map_or("agreed", |_| "too_early").to_owned(),
+        "energy_lost" => format!("{:e}", figures.too_early.unwrap_or(0.0)),
+        "patches" => figures.patches.to_string(),
+        "absorbed" => format!("{:.9}", energy.absorbed),
+        "unshot" => format!("{:.9}", energy.unshot),
+        "in_transit" => format!("{:.9}", energy.in_transit),
+        "escaped" => format!("{:.9}", energy.escaped),
+        "operations" => {
+            let counts = figures.work.iter().map(|(name, count)| format!("{name}={count}"));
+            counts.collect::<Vec<_>>().join(" ")
+        }
+        _ => return None,
+    })
+}
+
+/// A swept value as a cell.
+pub fn cell(value: &Value) -> String {
+    match value {
+        Value::Null => String::new(),
+        Value::String(text) => text.clone(),
+        other => other.to_string(),
+    }
+}
+
+fn optional(value: Option<f64>, decimals: usize) -> String {
+    value.map_or(String::new(), |value| format!("{value:.decimals$}"))
+}

@@ -1,0 +1,259 @@
+//! An experiment file, typed: one point of its sweep, every field as the user may write it.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::quantity::{Fraction, Length, Period, Triple};
+
+/// An experiment: the runs of a scene on a machine, and what to draw of them.
+///
+/// One rule makes every sweep: where one value is expected, a list of values sweeps it. The runs
+/// are the product of all lists, the first list in the file slowest, and each swept field is a
+/// column of runs.csv. Only in "plots" a list is a plain list.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "Virtwall experiment")]
+pub struct Experiment {
+    /// Where this schema lies, for editors.
+    #[serde(rename = "$schema", default, skip_serializing_if = "Option::is_none")]
+    pub schema: Option<String>,
+    /// What the experiment shows, for people.
+    pub title: String,
+    /// The scene: the name of a file in scenes/, or a path, relative to this file, to a scene
+    /// description (.json) or a bare OBJ file (.obj).
+    pub scene: String,
+    /// The machine: the name of a file in machines/, or a path, relative to this file.
+    #[serde(default = "default_machine")]
+    pub machine: String,
+    /// Compute nodes used, at most as many as there are local environments. Paper: Table 1.
+    pub processors: u32,
+    /// Local environments that the scene is cut into. Paper: 56 (§5.3).
+    #[serde(default = "default_local_environments")]
+    pub local_environments: u32,
+    /// Local environments along x, y and z, such as "14x4x1"; they make "local_environments" in
+    /// all. Default: the scene file's cut for that number, else the one whose environments are
+    /// nearest to cubes. Choice C2: the paper's cut is "straightforward and automatic" (§4.2.1).
+    #[serde(default)]
+    pub cut: Option<Triple>,
+    /// Cells of the whole scene along x, y and z, such as "56x28x14". Cut planes lie between
+    /// cells. Default: the scene file's, else about one cell a polygon. Choice C10: the paper
+    /// tells no number, only that it is the same for every cut (§5.2).
+    #[serde(default)]
+    pub cells: Option<Triple>,
+    /// Longest edge of a patch, such as "0.30 m". Default: the scene file's, else a fiftieth of
+    /// the scene's diagonal.
+    #[serde(default)]
+    pub patch_size: Option<Length>,
+    /// Longest edge of a patch that emits light. Default: the scene file's, else as
+    /// "patch_size". Choice C11: how finely the paper's lights are meshed is unpublished; it
+    /// decides how many shots there are.
+    #[serde(default)]
+    pub emitter_patch_size: Option<Length>,
+    /// The hemisphere of rays over a source.
+    #[serde(default)]
+    pub hemisphere: Hemisphere,
+    /// Which source a node shoots next. Choice C4: §3.2 says the most unshot energy, §4.2.2 the
+    /// greatest delta-radiosity.
+    #[serde(default)]
+    pub selection: Selection,
+    /// Which source goes first when a received and a local one are worth the same. Choice C5:
+    /// the paper does not say.
+    #[serde(default)]
+    pub ties: Ties,
+    /// When sources are no longer shot.
+    #[serde(default)]
+    pub stop: Stop,
+    /// Whether a mask that arrives while another one of the same source waits for the same local
+    /// environment is merged with it. Choice C9: the paper puts all sources that arrive into the
+    /// queue, and says no more.
+    #[serde(default)]
+    pub merge_masks: bool,
+    /// How local environments are given to processors. Choice C3: the paper says automatic,
+    /// without load balancing (§4.2.1).
+    #[serde(default)]
+    pub mapping: Mapping,
+    /// Whether compute nodes send radiosity updates to the service node. Paper: Figure 6.
+    #[serde(default = "yes")]
+    pub radiosity_updates: bool,
+    /// Seed of every random choice.
+    #[serde(default = "default_seed")]
+    pub seed: u64,
+    /// A CSV file, relative to this one, with the columns scene, processors, time_s and speed_up:
+    /// published figures to stand beside ours.
+    #[serde(default)]
+    pub compare_with: Option<String>,
+    /// What to draw. Lists are plain lists here, they sweep nothing.
+    #[serde(default)]
+    pub plots: Vec<Plot>,
+}
+
+impl Experiment {
+    /// A scene by itself: one processor, one local environment, all else by default.
+    pub fn of_one_environment(scene: &str) -> Experiment {
+        Experiment {
+            schema: None,
+            title: String::new(),
+            scene: scene.to_owned(),
+            machine: default_machine(),
+            processors: 1,
+            local_environments: 1,
+            cut: None,
+            cells: None,
+            patch_size: None,
+            emitter_patch_size: None,
+            hemisphere: Hemisphere::default(),
+            selection: Selection::default(),
+            ties: Ties::default(),
+            stop: Stop::default(),
+            merge_masks: false,
+            mapping: Mapping::default(),
+            radiosity_updates: yes(),
+            seed: default_seed(),
+            compare_with: None,
+            plots: Vec::new(),
+        }
+    }
+}
+
+/// The hemisphere of rays over a source, a ray a pixel. Paper: §3.2.
+#[derive(Clone, Copy, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Hemisphere {
+    /// How directions are spread. Choice C1: the paper has a hemisphere of pixels and leaves
+    /// their arrangement open; at 30,976 pixels it changes the error of a form factor sixfold.
+    pub directions: Directions,
+    /// Pixels, that is rays a source and bits a mask. Choice C1: unpublished; a 4 KB message
+    /// (§4.2.3) leaves room for some 32,000, and 30,976 = 176² bits leave 224 bytes for geometry
+    /// and photometry.
+    pub pixels: u32,
+    /// Whether the directions are turned about the normal by an angle of each source's own, so
+    /// that no ray runs along a plane by habit.
+    pub rotated: bool,
+}
+
+impl Default for Hemisphere {
+    fn default() -> Hemisphere {
+        Hemisphere { directions: Directions::Fibonacci, pixels: 30_976, rotated: true }
+    }
+}
+
+/// How a hemisphere's directions are spread.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Directions {
+    /// A cosine-weighted Fibonacci disc, turned by an angle of each source's own.
+    Fibonacci,
+    /// The five faces of a half cube.
+    Hemicube,
+    /// Rings of equal elevation.
+    Polar,
+    /// The concentric map of a square.
+    Concentric,
+}
+
+/// Which source a node shoots next.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Selection {
+    /// The one with the most unshot energy.
+    #[default]
+    Energy,
+    /// The one with the greatest unshot radiosity.
+    DeltaRadiosity,
+}
+
+/// Which of two sources of the same worth goes first.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Ties {
+    /// The one that another node sent.
+    #[default]
+    ReceivedFirst,
+    /// The node's own.
+    LocalFirst,
+}
+
+/// How local environments are given to processors.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Mapping {
+    /// Contiguous blocks, as equal as can be.
+    #[default]
+    Blocks,
+    /// One after the other, in turn.
+    Cyclic,
+    /// Equal shares, shuffled by the seed.
+    Random,
+}
+
+/// When sources are no longer shot.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Stop {
+    /// A local patch is never selected under this share of what the brightest patch begins with.
+    /// Choice C6: the paper's threshold is unpublished.
+    pub patch_threshold: Fraction,
+    /// The service node ends selection when unshot energy and energy in transit fall to this
+    /// share of the emitted energy. Choice C7: unpublished.
+    pub energy_threshold: Fraction,
+    /// How often the service node collects the energy left. Choice C8: unpublished.
+    pub collect_every: Period,
+}
+
+impl Default for Stop {
+    fn default() -> Stop {
+        Stop {
+            patch_threshold: Fraction::parse("10 %").expect("10 % is a fraction"),
+            energy_threshold: Fraction::parse("0 %").expect("0 % is a fraction"),
+            collect_every: Period::parse("1 s").expect("1 s is a time"),
+        }
+    }
+}
+
+/// One plot of the results.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Plot {
+    /// Column of runs.csv along the horizontal axis.
+    pub x: String,
+    /// Column of runs.csv along the vertical axis.
+    pub y: String,
+    /// Column whose values each make a line. Fields swept besides make lines of their own too.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub series: Option<String>,
+    /// Heading. Default: made from the columns' names.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub title: Option<String>,
+    /// Whether the horizontal axis is logarithmic.
+    #[serde(default)]
+    pub log_x: bool,
+    /// Whether the vertical axis is logarithmic.
+    #[serde(default)]
+    pub log_y: bool,
+    /// Name of the SVG file, without folder or ending. Default: "<y>-by-<x>".
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
+}
+
+impl Plot {
+    /// Name of the SVG file, without folder or ending.
+    pub fn stem(&self) -> String {
+        self.file.clone().unwrap_or_else(|| format!("{}-by-{}", self.y, self.x))
+    }
+}
+
+fn default_machine() -> String {
+    "paragon-xps".to_owned()
+}
+
+fn default_local_environments() -> u32 {
+    56
+}
+
+fn default_seed() -> u64 {
+    1996
+}
+
+fn yes() -> bool {
+    true
+}

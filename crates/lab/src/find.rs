@@ -1,0 +1,85 @@
+//! Where scenes and machines lie: names stand for files in `scenes/` and `machines/`.
+
+use std::path::{Path, PathBuf};
+
+use crate::fault::unknown;
+
+/// A kind of files that go by their names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shelf {
+    /// Scene descriptions.
+    Scenes,
+    /// Machine descriptions.
+    Machines,
+}
+
+impl Shelf {
+    fn folder(self) -> &'static str {
+        match self {
+            Shelf::Scenes => "scenes",
+            Shelf::Machines => "machines",
+        }
+    }
+
+    fn noun(self) -> &'static str {
+        match self {
+            Shelf::Scenes => "scene",
+            Shelf::Machines => "machine",
+        }
+    }
+}
+
+/// A file that a name or a path leads to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Found {
+    /// Where it is.
+    pub path: PathBuf,
+    /// What results call it, the same wherever the project lies: "scenes/office.json", or the
+    /// path as the user wrote it.
+    pub label: String,
+}
+
+/// Finds what the name or path `name` in a file in `folder` means. A name is looked up in
+/// `scenes/` or `machines/` beside the file's folder, then in the current folder; a path (with a
+/// slash or an ending) is relative to `folder`, else to the current folder.
+///
+/// # Errors
+/// If there is no such file: a message that lists the names there are.
+pub fn find(folder: &Path, shelf: Shelf, name: &str) -> Result<Found, String> {
+    if name.contains(['/', '\\']) || name.ends_with(".json") || name.ends_with(".obj") {
+        return [folder.join(name), PathBuf::from(name)]
+            .into_iter()
+            .find(|path| path.is_file())
+            .map(|path| Found { path, label: name.to_owned() })
+            .ok_or_else(|| format!("\"{name}\": no such file; expected a path from {}", folder.display()));
+    }
+    let shelves = [beside(folder).join(shelf.folder()), PathBuf::from(shelf.folder())];
+    let file = format!("{name}.json");
+    if !name.is_empty()
+        && let Some(path) = shelves.iter().map(|s| s.join(&file)).find(|path| path.is_file())
+    {
+        return Ok(Found { path, label: format!("{}/{file}", shelf.folder()) });
+    }
+    let mut known: Vec<String> = shelves.iter().flat_map(|shelf| names(shelf)).collect();
+    known.sort();
+    known.dedup();
+    Err(unknown(shelf.noun(), name, &known))
+}
+
+/// The folder that holds `folder`.
+fn beside(folder: &Path) -> PathBuf {
+    match (folder.file_name(), folder.parent()) {
+        (Some(_), Some(parent)) => parent.to_owned(),
+        _ => folder.join(".."),
+    }
+}
+
+/// Names of the JSON files in a folder.
+fn names(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    entries
+        .map(|entry| entry.path())
+        .filter(|path| path.extension().is_some_and(|ending| ending == "json"))
+        .filter_map(|path| Some(path.file_stem()?.to_str()?.to_owned()))
+        .collect()
+}

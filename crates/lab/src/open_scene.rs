@@ -1,0 +1,46 @@
+//! A scene outside any experiment: to be counted and looked at.
+
+use std::path::Path;
+
+use crate::experiment::Experiment;
+use crate::fault::Fault;
+use crate::find::{Shelf, find};
+use crate::problem::{Scene, Settings};
+
+/// A scene, and how its own description, if it has one, says to mesh it.
+pub struct OpenScene {
+    /// What it shows, if its description says so.
+    pub title: Option<String>,
+    /// The geometry.
+    pub scene: radiosity::Scene,
+    /// What was mended on loading.
+    pub warnings: Vec<String>,
+    /// Longest edge of a patch, metres.
+    pub patch_size: f64,
+    /// Longest edge of a patch that emits light, metres.
+    pub emitter_patch_size: f64,
+    /// Cells along x, y and z.
+    pub cells: [u32; 3],
+}
+
+impl OpenScene {
+    /// Loads the scene that a name, or a path to a scene description or an OBJ file, means.
+    ///
+    /// # Errors
+    /// What is wrong, and where.
+    pub fn load(name: &str) -> Result<OpenScene, Fault> {
+        let found = find(Path::new("."), Shelf::Scenes, name).map_err(Fault::complete)?;
+        let scene = Scene::load(&found)?;
+        let whole = Experiment::of_one_environment(name);
+        let settings = Settings::of(&whole, &scene)
+            .map_err(|(_, message)| Fault::of_file(&found.label, message))?;
+        Ok(OpenScene {
+            title: scene.file.and_then(|file| file.title),
+            scene: scene.geometry.scene,
+            warnings: scene.geometry.warnings,
+            patch_size: settings.patch_size,
+            emitter_patch_size: settings.emitter_patch_size,
+            cells: settings.cells.0,
+        })
+    }
+}

@@ -1,0 +1,233 @@
+//! How a plan is made from an experiment file: every check there is, and nothing loaded twice.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use crate::columns;
+use crate::comparison::Comparison;
+use crate::digest::FileDigest;
+use crate::document::Document;
+use crate::engine::{self, Problem};
+use crate::experiment::{Experiment, Plot};
+use crate::fault::{Fault, unknown};
+use crate::find::{Shelf, find};
+use crate::name::{PLAIN, is_plain};
+use crate::place::Place;
+use crate::plan::{Equipment, Plan, Prepared, Run};
+use crate::problem::{Scene, Settings};
+use crate::sweep::{Point, Sweep, put};
+
+/// What planning has read so far.
+pub struct Planner<'a> {
+    path: &'a Path,
+    folder: &'a Path,
+    document: &'a Document,
+    sweep: &'a Sweep,
+    scenes: BTreeMap<PathBuf, Scene>,
+    machine_paths: Vec<PathBuf>,
+    machines: Vec<Equipment>,
+    problems: Vec<Prepared>,
+}
+
+impl<'a> Planner<'a> {
+    /// A planner for the experiment file at `path`.
+    pub fn new(path: &'a Path, document: &'a Document, sweep: &'a Sweep) -> Planner<'a> {
+        Planner {
+            path,
+            folder: path.parent().unwrap_or(Path::new("")),
+            document,
+            sweep,
+            scenes: BTreeMap::new(),
+            machine_paths: Vec::new(),
+            machines: Vec::new(),
+            problems: Vec::new(),
+        }
+    }
+
+    /// Makes the plan.
+    ///
+    /// # Errors
+    /// The first fault met.
+    pub fn plan(mut self) -> Result<Plan, Fault> {
+        let name = self.name()?;
+        let runs = self.sweep.points.iter().map(|point| self.run(point));
+        let runs = runs.collect::<Result<Vec<Run>, Fault>>()?;
+        let first = &runs[0].point;
+        let (title, plots) = (first.title.clone(), first.plots.clone());
+        let resolved = self.resolved(first);
+        self.check_plots(&plots)?;
+        let (comparison, compared) = self.comparison(first)?;
+
+        let mut files: Vec<FileDigest> = self.scenes.values().flat_map(|s| s.digests.clone()).collect();
+        files.extend(self.machines.iter().map(|machine| machine.digest.clone()));
+        files.extend(compared);
+        files.sort();
+        files.dedup();
+        let warnings = self.scenes.values().flat_map(|s| s.geometry.warnings.clone()).collect();
+        Ok(Plan {
+            name,
+            title,
+            resolved,
+            axes: self.sweep.axes.clone(),
+            runs,
+            problems: self.problems,
+            machines: self.machines,
+            comparison,
+            plots,
+            warnings,
+            files,
+        })
+    }
+
+    /// The name that the results go by: a plain one, which leads nowhere else.
+    fn name(&self) -> Result<String, Fault> {
+        let stem = self.path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
+        if is_plain(stem) {
+            return Ok(stem.to_owned());
+        }
+        let message = format!("the name \"{stem}\" names its results; expected {PLAIN}");
+        Err(Fault::of_file(&self.document.file, message))
+    }
+
+    /// Reads and checks one point of the sweep.
+    fn run(&mut self, point: &Point) -> Result<Run, Fault> {
+        let locate = |place| self.sweep.place_in_file(point, place);
+        let typed: Experiment = self.document.typed(&point.value, locate)?;
+        let refuse = |field: &str, message: String| {
+            Err(self.document.fault(&locate(Place::of(field)), message))
+        };
+        let (processors, environments) = (typed.processors, typed.local_environments);
+        if environments == 0 {
+            return refuse("local_environments", "0; expected 1 or more".to_owned());
+        }
+        if processors == 0 {
+            return refuse("processors", "0; expected 1 or more".to_owned());
+        }
+        if processors > environments {
+            let message = format!("{processors} processors for {environments} local environments");
+            return refuse("processors", message + "; expected at most one for each");
+        }
+        let machine = self.machine(&typed.machine).or_else(|error| error.at(self, point, "machine"))?;
+        let nodes = self.machines[machine].machine.compute_nodes();
+        if processors as usize > nodes {
+            let message = format!("{processors} processors, but \"{}\" has {nodes}", typed.machine);
+            return refuse("processors", message + " compute nodes; expected at most that");
+        }
+        let problem = self.problem(point, &typed)?;
+        Ok(Run { index: point.index.clone(), point: typed, problem, machine })
+    }
+
+    /// The machine of that name or path, loaded once.
+    fn machine(&mut self, name: &str) -> Result<usize, Trouble> {
+        let found = find(self.folder, Shelf::Machines, name)?;
+        if let Some(loaded) = self.machine_paths.iter().position(|path| *path == found.path) {
+            return Ok(loaded);
+        }
+        let digest = FileDigest::of(&found.path, &found.label)?;
+        let machine = engine::load_machine(&found.path)?;
+        self.machine_paths.push(found.path);
+        self.machines.push(Equipment { machine, digest });
+        Ok(self.machines.len() - 1)
+    }
+
+    /// The scene of this point, meshed and cut as it says, each such problem built once.
+    fn problem(&mut self, point: &Point, typed: &Experiment) -> Result<usize, Fault> {
+        let found = find(self.folder, Shelf::Scenes, &typed.scene);
+        let found = found.or_else(|message| Trouble::Here(message).at(self, point, "scene"))?;
+        if !self.scenes.contains_key(&found.path) {
+            self.scenes.insert(found.path.clone(), Scene::load(&found)?);
+        }
+        let scene = &self.scenes[&found.path];
+        let settings = Settings::of(typed, scene)
+            .or_else(|(field, message)| Trouble::Here(message).at(self, point, field))?;
+        if let Some(built) = self.problems.iter().position(|p| p.settings == settings) {
+            return Ok(built);
+        }
+        let problem = Problem::new(&scene.geometry, &settings)
+            .or_else(|(field, message)| Trouble::Here(message).at(self, point, field))?;
+        let digests = scene.digests.clone();
+        self.problems.push(Prepared { settings, problem, digests });
+        Ok(self.problems.len() - 1)
+    }
+
+    /// The experiment file with every default filled in: a file that says the same.
+    fn resolved(&self, first: &Experiment) -> Value {
+        let mut resolved = serde_json::to_value(first).unwrap_or_default();
+        for axis in &self.sweep.axes {
+            put(&mut resolved, &axis.place, &Value::Array(axis.values.clone()));
+        }
+        resolved
+    }
+
+    /// Refuses plots of columns that there will not be, or with names that lead elsewhere.
+    fn check_plots(&self, plots: &[Plot]) -> Result<(), Fault> {
+        let known = columns::names(&self.sweep.axes);
+        for (i, plot) in plots.iter().enumerate() {
+            let place = Place::of("plots").item(i);
+            let series = plot.series.as_ref();
+            for (field, column) in [("x", Some(&plot.x)), ("y", Some(&plot.y)), ("series", series)] {
+                if let Some(column) = column
+                    && !known.contains(column)
+                {
+                    let message = unknown("column", column, &known);
+                    return Err(self.document.fault(&place.key(field), message));
+                }
+            }
+            let stem = plot.stem();
+            if !is_plain(&stem) {
+                let message = format!("\"{stem}\" names a file; expected {PLAIN}");
+                return Err(self.document.fault(&place.key("file"), message));
+            }
+            if plots[..i].iter().any(|earlier| earlier.stem() == stem) {
+                let message = format!("\"{stem}.svg\" is an earlier plot too; expected a \"file\" of its own");
+                return Err(self.document.fault(&place, message));
+            }
+        }
+        Ok(())
+    }
+
+    /// The published figures, if there are any, and the file they are from.
+    fn comparison(&self, first: &Experiment) -> Result<(Comparison, Option<FileDigest>), Fault> {
+        let Some(name) = &first.compare_with else {
+            return Ok((Comparison::default(), None));
+        };
+        let path = self.folder.join(name);
+        if !path.is_file() {
+            let message = format!("\"{name}\": no such file; expected a path from this file");
+            return Err(self.document.fault(&Place::of("compare_with"), message));
+        }
+        Ok((Comparison::read(&path)?, Some(FileDigest::of(&path, name)?)))
+    }
+}
+
+/// Something wrong with what a field names: told at the field, or in the file that it names.
+enum Trouble {
+    Here(String),
+    There(Fault),
+}
+
+impl Trouble {
+    fn at<T>(self, planner: &Planner, point: &Point, field: &str) -> Result<T, Fault> {
+        Err(match self {
+            Trouble::There(fault) => fault,
+            Trouble::Here(message) => {
+                let place = planner.sweep.place_in_file(point, Place::of(field));
+                planner.document.fault(&place, message)
+            }
+        })
+    }
+}
+
+impl From<String> for Trouble {
+    fn from(message: String) -> Trouble {
+        Trouble::Here(message)
+    }
+}
+
+impl From<Fault> for Trouble {
+    fn from(fault: Fault) -> Trouble {
+        Trouble::There(fault)
+    }
+}

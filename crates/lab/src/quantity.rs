@@ -1,0 +1,194 @@
+//! Numbers with units and small grids, as text in our files.
+
+use std::borrow::Cow;
+use std::fmt;
+use std::marker::PhantomData;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::{Deserializer, Error};
+use serde::{Deserialize, Serialize, Serializer};
+
+use multicomputer::quantity::{self, Dimension};
+
+/// What a quantity measures, and which values it may take.
+pub trait Kind {
+    /// Its name in messages, with the article.
+    const NAME: &'static str;
+    /// Its dimension.
+    const DIMENSION: Dimension;
+    /// An example, for messages and schemas.
+    const EXAMPLE: &'static str;
+    /// The values allowed, in words.
+    const RANGE: &'static str;
+    /// Whether a value, in the base unit, is allowed.
+    fn allows(value: f64) -> bool;
+}
+
+/// A length of more than 0 m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LengthKind;
+
+impl Kind for LengthKind {
+    const NAME: &'static str = "a length";
+    const DIMENSION: Dimension = Dimension::Length;
+    const EXAMPLE: &'static str = "0.30 m";
+    const RANGE: &'static str = "more than 0";
+    fn allows(value: f64) -> bool {
+        value > 0.0
+    }
+}
+
+/// A share from 0 to 100 %.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FractionKind;
+
+impl Kind for FractionKind {
+    const NAME: &'static str = "a fraction";
+    const DIMENSION: Dimension = Dimension::Fraction;
+    const EXAMPLE: &'static str = "10 %";
+    const RANGE: &'static str = "from 0 % to 100 %";
+    fn allows(value: f64) -> bool {
+        (0.0..=1.0).contains(&value)
+    }
+}
+
+/// A span of virtual time of more than 0 s, up to a day: virtual time is counted in picoseconds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PeriodKind;
+
+impl Kind for PeriodKind {
+    const NAME: &'static str = "a time";
+    const DIMENSION: Dimension = Dimension::Time;
+    const EXAMPLE: &'static str = "1 s";
+    const RANGE: &'static str = "from 1 ps to 86400 s";
+    fn allows(value: f64) -> bool {
+        (1e-12..=86_400.0).contains(&value)
+    }
+}
+
+/// A number with its unit, as text in a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Quantity<K> {
+    text: String,
+    value: f64,
+    kind: PhantomData<K>,
+}
+
+/// A length, in metres.
+pub type Length = Quantity<LengthKind>;
+/// A share, from 0 to 1.
+pub type Fraction = Quantity<FractionKind>;
+/// A span of virtual time, in seconds.
+pub type Period = Quantity<PeriodKind>;
+
+impl<K: Kind> Quantity<K> {
+    /// Reads text such as "0.30 m".
+    ///
+    /// # Errors
+    /// If the text is no quantity of this kind, or its value is not allowed.
+    pub fn parse(text: &str) -> Result<Quantity<K>, String> {
+        let value = quantity::parse(text, K::DIMENSION).map_err(|error| error.to_string())?;
+        if !K::allows(value) {
+            return Err(format!("found \"{text}\"; expected {} {}", K::NAME, K::RANGE));
+        }
+        Ok(Quantity { text: text.to_owned(), value, kind: PhantomData })
+    }
+
+    /// The value in the base unit: metres, seconds, or a fraction of 1.
+    pub fn value(&self) -> f64 {
+        self.value
+    }
+}
+
+impl<'de, K: Kind> Deserialize<'de> for Quantity<K> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Quantity<K>, D::Error> {
+        let text = text_with_unit::<D>(deserializer, K::NAME, K::EXAMPLE)?;
+        Quantity::parse(&text).map_err(D::Error::custom)
+    }
+}
+
+impl<K> Serialize for Quantity<K> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(&self.text)
+    }
+}
+
+impl<K: Kind> JsonSchema for Quantity<K> {
+    fn schema_name() -> Cow<'static, str> {
+        K::NAME.into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": "string", "pattern": "^ *[0-9.]", "examples": [K::EXAMPLE] })
+    }
+}
+
+/// Three counts, one an axis, such as "14x4x1".
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Triple(pub [u32; 3]);
+
+impl Triple {
+    /// Reads text such as "14x4x1".
+    ///
+    /// # Errors
+    /// If the text is not three whole numbers, 1 to 4096 each.
+    pub fn parse(text: &str) -> Result<Triple, String> {
+        let counts: Option<Vec<u32>> = text.split('x').map(|n| n.trim().parse().ok()).collect();
+        counts
+            .and_then(|counts| <[u32; 3]>::try_from(counts).ok())
+            .filter(|counts| counts.iter().all(|n| (1..=4096).contains(n)))
+            .map(Triple)
+            .ok_or_else(|| {
+                format!("\"{text}\" is not three counts of 1 to 4096; expected such as \"14x4x1\"")
+            })
+    }
+
+    /// How many boxes there are in all.
+    pub fn product(self) -> u64 {
+        self.0.iter().map(|&n| u64::from(n)).product()
+    }
+}
+
+impl fmt::Display for Triple {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [x, y, z] = self.0;
+        write!(f, "{x}x{y}x{z}")
+    }
+}
+
+impl<'de> Deserialize<'de> for Triple {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Triple, D::Error> {
+        Triple::parse(&String::deserialize(deserializer)?).map_err(D::Error::custom)
+    }
+}
+
+impl Serialize for Triple {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+impl JsonSchema for Triple {
+    fn schema_name() -> Cow<'static, str> {
+        "Triple".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let counts = "^[1-9][0-9]*x[1-9][0-9]*x[1-9][0-9]*$";
+        json_schema!({ "type": "string", "pattern": counts, "examples": ["14x4x1"] })
+    }
+}
+
+/// A string; a bare number is told that it lacks its unit.
+fn text_with_unit<'de, D: Deserializer<'de>>(
+    deserializer: D,
+    name: &str,
+    example: &str,
+) -> Result<String, D::Error> {
+    match serde_json::Value::deserialize(deserializer)? {
+        serde_json::Value::String(text) => Ok(text),
+        other => Err(D::Error::custom(format!(
+            "found {other} without a unit; expected {name} as text, such as \"{example}\""
+        ))),
+    }
+}

@@ -1,0 +1,66 @@
+//! Which run is next: runs of one problem share the shots that are kept, so that workers had
+//! better share problems out among themselves, and the largest go first.
+
+use crate::engine::Kept;
+use crate::plan::Plan;
+
+/// Runs that wait, by problem.
+pub struct Queue {
+    problems: Vec<Waiting>,
+    budget: usize,
+}
+
+/// The runs of one problem that wait.
+struct Waiting {
+    /// In reverse of the plan's order, to be taken from the end.
+    runs: Vec<usize>,
+    /// Runs being worked on.
+    active: usize,
+    patches: usize,
+    kept: Option<Kept>,
+}
+
+/// A run to be worked on.
+pub struct Task {
+    /// Index into [`Plan::runs`].
+    pub run: usize,
+    /// Index into [`Plan::problems`].
+    pub problem: usize,
+    /// Shots kept from other runs of the same problem.
+    pub kept: Kept,
+}
+
+impl Queue {
+    /// A queue of the runs `waiting`; each problem worked on may keep `budget` bytes of shots.
+    pub fn new(plan: &Plan, waiting: impl Iterator<Item = usize>, budget: usize) -> Queue {
+        let empty = |patches| Waiting { runs: Vec::new(), active: 0, patches, kept: None };
+        let mut problems: Vec<Waiting> =
+            plan.problems.iter().map(|prepared| empty(prepared.problem.patches())).collect();
+        for run in waiting {
+            problems[plan.runs[run].problem].runs.push(run);
+        }
+        problems.iter_mut().for_each(|problem| problem.runs.reverse());
+        Queue { problems, budget }
+    }
+
+    /// The next run: of the problem with the fewest workers, of those one already begun, of those
+    /// the one with the most patches.
+    pub fn take(&mut self) -> Option<Task> {
+        let waiting = self.problems.iter_mut().enumerate().filter(|(_, p)| !p.runs.is_empty());
+        let (index, problem) =
+            waiting.min_by_key(|(_, p)| (p.active, p.kept.is_none(), usize::MAX - p.patches))?;
+        let run = problem.runs.pop()?;
+        problem.active += 1;
+        let kept = problem.kept.get_or_insert_with(|| Kept::new(self.budget));
+        Some(Task { run, problem: index, kept: kept.clone() })
+    }
+
+    /// Takes note that a run has ended; a problem's kept shots go with its last run.
+    pub fn done(&mut self, task: &Task) {
+        let problem = &mut self.problems[task.problem];
+        problem.active -= 1;
+        if problem.active == 0 && problem.runs.is_empty() {
+            problem.kept = None;
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! The report: one page, complete in itself.
+
+use std::fmt::Write;
+
+use serde_json::Value;
+
+use crate::columns;
+use crate::results::Results;
+use crate::schema::experiment_schema;
+use crate::summary::Summary;
+use crate::table::Table;
+
+const STYLE: &str = include_str!("report.css");
+
+/// The page. `drawings` are its plots, as SVG.
+pub fn html(results: &Results, drawings: &[String]) -> String {
+    let manifest = &results.manifest;
+    let title = escape(&columns::cell(&manifest["title"]));
+    let mut body = String::new();
+    let mut add = |part: String| body.push_str(&part);
+    add(format!("<h1>{title}</h1>\n"));
+    add(lead(results));
+    add(summary(&results.table));
+    add(warnings(results));
+    drawings.iter().for_each(|svg| add(format!("<figure>{svg}</figure>\n")));
+    add("<h2>Runs</h2>\n".to_owned());
+    add(table(&shown_columns(results), &results.table));
+    add("<h2>Choices</h2>\n<p>What the paper leaves open, and what this experiment takes.</p>\n".to_owned());
+    add(choices(manifest));
+    add("<h2>Scenes</h2>\n".to_owned());
+    add(problems(manifest));
+    add("<h2>Configuration</h2>\n<p>Every field, defaults filled in. It is an experiment file \
+         that gives these results again.</p>\n".to_owned());
+    let experiment = serde_json::to_string_pretty(&manifest["experiment"]).unwrap_or_default();
+    add(format!("<pre>{}</pre>\n", escape(&experiment)));
+    add("<h2>Files</h2>\n".to_owned());
+    add(files(manifest));
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width\">\n<title>{title}</title>\n\
+         <style>\n{STYLE}</style>\n</head>\n<body>\n{body}</body>\n</html>\n"
+    )
+}
+
+fn lead(results: &Results) -> String {
+    let manifest = &results.manifest;
+    let on = match manifest["on"].as_str() {
+        Some("threads") => "on this host's threads",
+        _ => "on a simulated machine; times are virtual",
+    };
+    let runs = results.table.rows.len();
+    let version = escape(&columns::cell(&manifest["virtwall"]));
+    let seed = escape(&columns::cell(&manifest["seed"]));
+    let plural = if runs == 1 { "" } else { "s" };
+    format!("<p class=\"lead\">{runs} run{plural} {on}. Virtwall {version}, seed {seed}.</p>\n")
+}
+
+fn summary(table: &Table) -> String {
+    let lines = Summary::of(table).lines();
+    lines.iter().map(|line| format!("<p class=\"summary\">{}</p>\n", escape(line))).collect()
+}
+
+fn warnings(results: &Results) -> String {
+    let mut items: Vec<String> = results.manifest["warnings"]
+        .as_array()
+        .map_or(Vec::new(), |warnings| warnings.iter().map(columns::cell).collect());
+    for row in &results.table.rows {
+        let cell = |column| results.table.cell(row, column);
+        let run = format!("{} on {} processors", cell("scene"), cell("processors"));
+        match cell("ending") {
+            "failed" => items.push(format!("{run} failed: {}", cell("failure"))),
+            "too_early" => items.push(format!(
+                "{run}: the end was announced too early; {} of the emitted energy is lost",
+                cell("energy_lost")
+            )),
+            _ => {}
+        }
+    }
+    if items.is_empty() {
+        return String::new();
+    }
+    let items: String = items.iter().map(|item| format!("<li>{}</li>\n", escape(item))).collect();
+    format!("<h2>Warnings</h2>\n<ul class=\"warnings\">\n{items}</ul>\n")
+}
+
+/// The columns of runs.csv that hold something, but for those too long for a page.
+fn shown_columns(results: &Results) -> Vec<&str> {
+    let table = &results.table;
+    let holds = |column: &&str| table.rows.iter().any(|row| !table.cell(row, column).is_empty());
+    let names = table.columns.iter().map(String::as_str);
+    names.filter(|name| !["operations", "failure"].contains(name)).filter(holds).collect()
+}
+
+fn table(names: &[&str], table: &Table) -> String {
+    let head: String = names.iter().map(|name| format!("<th>{}</th>", heading(name))).collect();
+    let mut rows = String::new();
+    for row in &table.rows {
+        let cells = names.iter().map(|name| format!("<td>{}</td>", escape(table.cell(row, name))));
+        // Writing to a string cannot fail.
+        let _ = writeln!(rows, "<tr>{}</tr>", cells.collect::<String>());
+    }
+    format!(
+        "<div class=\"wide\"><table>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{rows}</tbody>\n\
+         </table></div>\n"
+    )
+}
+
+/// Every field whose description says that it is a choice, with what it is here.
+fn choices(manifest: &Value) -> String {
+    let mut rows = Vec::new();
+    collect_choices(&experiment_schema(), &manifest["experiment"], "", &mut rows);
+    rows.sort();
+    let rows = rows.into_iter().map(|(number, field, value, about)| {
+        format!(
+            "<tr><td>C{number}</td><td><code>{}</code></td><td>{}</td><td class=\"text\">{}</td></tr>\n",
+            escape(&field),
+            escape(&value),
+            escape(&about)
+        )
+    });
+    let head = "<thead><tr><th></th><th>field</th><th>here</th><th></th></tr></thead>";
+    format!("<div class=\"wide\"><table>{head}<tbody>\n{}</tbody></table></div>\n", rows.collect::<String>())
+}
+
+type ChoiceRow = (u32, String, String, String);
+
+fn collect_choices(schema: &Value, value: &Value, path: &str, rows: &mut Vec<ChoiceRow>) {
+    for (name, schema) in schema["properties"].as_object().into_iter().flatten() {
+        let path = if path.is_empty() { name.clone() } else { format!("{path}.{name}") };
+        let about = schema["description"].as_str().unwrap_or_default();
+        if let Some(number) = choice_number(about) {
+            let here = match &value[name] {
+                Value::Null => "default".to_owned(),
+                Value::Array(items) => {
+                    items.iter().map(columns::cell).collect::<Vec<_>>().join(", ")
+                }
+                one => columns::cell(one),
+            };
+            rows.push((number, path.clone(), here, about.to_owned()));
+        }
+        collect_choices(schema, &value[name], &path, rows);
+    }
+}
+
+fn choice_number(about: &str) -> Option<u32> {
+    let (_, rest) = about.split_once("Choice C")?;
+    rest.split(|c: char| !c.is_ascii_digit()).next()?.parse().ok()
+}
+
+fn problems(manifest: &Value) -> String {
+    let problems = manifest["problems"].as_array().map_or(&[][..], Vec::as_slice);
+    let Some(first) = problems.first().and_then(Value::as_object) else { return String::new() };
+    let names: Vec<&str> = first.keys().map(String::as_str).collect();
+    let cells = |problem: &Value| names.iter().map(|&name| columns::cell(&problem[name])).collect();
+    let columns = names.iter().map(|&name| name.to_owned()).collect();
+    table(&names, &Table { columns, rows: problems.iter().map(cells).collect() })
+}
+
+fn files(manifest: &Value) -> String {
+    let row = |(name, digest): (&String, &Value)| {
+        let digest = columns::cell(digest);
+        format!("<tr><td>{}</td><td><code>{}</code></td></tr>\n", escape(name), escape(&digest))
+    };
+    let rows: String = manifest["files"].as_object().into_iter().flatten().map(row).collect();
+    format!(
+        "<div class=\"wide\"><table><thead><tr><th>file</th><th>SHA-256</th></tr></thead><tbody>\n\
+         {rows}</tbody></table></div>\n"
+    )
+}
+
+fn heading(column: &str) -> String {
+    escape(column).replace('_', " ")
+}
+
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}

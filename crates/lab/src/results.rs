@@ -1,0 +1,171 @@
+//! A folder of results: written whole, and read again to be drawn anew.
+
+use std::fs;
+use std::io;
+use std::path::Path;
+
+use serde_json::{Map, Value, json};
+
+use crate::chart;
+use crate::console::table_text;
+use crate::digest::sha256;
+use crate::document::Document;
+use crate::experiment::Plot;
+use crate::fault::Fault;
+use crate::name::{PLAIN, is_plain};
+use crate::output;
+use crate::place::Place;
+use crate::plan::Plan;
+use crate::report;
+use crate::runner::{Endings, Options};
+use crate::saved::Saved;
+use crate::table::Table;
+
+/// The results of an experiment: all that its plots and its report are drawn from.
+pub struct Results {
+    /// One row a run.
+    pub table: Table,
+    /// Configuration, seed, versions and digests.
+    pub manifest: Value,
+}
+
+impl Results {
+    /// The results of a plan.
+    ///
+    /// # Errors
+    /// None is known: all is made in memory.
+    pub fn of(plan: &Plan, endings: &Endings, options: Options) -> io::Result<Results> {
+        let table = Table::of(plan, endings);
+        let manifest = manifest(plan, &table, options)?;
+        Ok(Results { table, manifest })
+    }
+
+    /// Reads a folder of results.
+    ///
+    /// # Errors
+    /// If a file is missing, damaged or changed since it was written.
+    pub fn read(folder: &Path) -> Result<Results, Fault> {
+        let path = folder.join("manifest.json");
+        if !path.is_file() {
+            let message = "no manifest.json in it; expected a folder that `run` wrote";
+            return Err(Fault::of_file(folder.display(), message));
+        }
+        let document = Document::read(&path)?;
+        let csv = folder.join("runs.csv");
+        let bytes = fs::read(&csv)
+            .map_err(|error| Fault::of_file(csv.display(), format!("cannot be read: {error}")))?;
+        if document.value["runs_csv_sha256"] != Value::String(sha256(&bytes)) {
+            let message = "does not have the digest that manifest.json states; expected it unchanged";
+            return Err(Fault::of_file(csv.display(), message));
+        }
+        let plots = &document.value["experiment"]["plots"];
+        let place = Place::of("experiment.plots");
+        for plot in document.typed::<Vec<Plot>>(plots, |_| place.clone())? {
+            if !is_plain(&plot.stem()) {
+                let message = format!("\"{}\" names a file; expected {PLAIN}", plot.stem());
+                return Err(document.fault(&place, message));
+            }
+        }
+        Ok(Results { table: Table::read(&csv)?, manifest: document.value })
+    }
+
+    /// Writes all files of results, each whole, and then forgets the runs saved one by one,
+    /// unless some have failed.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn write(&self, out: &Path) -> io::Result<()> {
+        fs::create_dir_all(out)?;
+        output::write(&out.join("runs.csv"), &self.table.to_csv()?)?;
+        output::write(&out.join("manifest.json"), pretty(&self.manifest)?.as_bytes())?;
+        self.draw(out)?;
+        if self.failures() == 0 {
+            Saved::in_folder(out).forget()?;
+        }
+        Ok(())
+    }
+
+    /// Draws plots and report into a folder; returns the names of the files.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn draw(&self, out: &Path) -> io::Result<Vec<String>> {
+        let mut names = Vec::new();
+        let mut drawings = Vec::new();
+        for plot in self.plots() {
+            let svg = chart::svg(&self.table, &self.sweeps(), &plot);
+            let name = format!("{}.svg", plot.stem());
+            output::write(&out.join(&name), svg.as_bytes())?;
+            names.push(name);
+            drawings.push(svg);
+        }
+        let html = report::html(self, &drawings);
+        output::write(&out.join("report.html"), html.as_bytes())?;
+        names.push("report.html".to_owned());
+        Ok(names)
+    }
+
+    /// The table for a terminal.
+    pub fn text(&self) -> String {
+        table_text(&self.table, &self.sweeps())
+    }
+
+    /// How many runs failed.
+    pub fn failures(&self) -> usize {
+        self.table.rows.iter().filter(|row| self.table.cell(row, "ending") == "failed").count()
+    }
+
+    /// Names of the swept fields.
+    pub fn sweeps(&self) -> Vec<String> {
+        let names = self.manifest["sweeps"].as_array().into_iter().flatten();
+        names.filter_map(|name| Some(name.as_str()?.to_owned())).collect()
+    }
+
+    fn plots(&self) -> Vec<Plot> {
+        // Validated when the plan was made, or when the manifest was read.
+        serde_json::from_value(self.manifest["experiment"]["plots"].clone()).unwrap_or_default()
+    }
+}
+
+/// Everything that says where the results come from, and nothing of the host.
+fn manifest(plan: &Plan, table: &Table, options: Options) -> io::Result<Value> {
+    let problems = plan.problems.iter().map(|prepared| {
+        let mut problem = json!(prepared.settings);
+        problem["patches"] = prepared.problem.patches().into();
+        problem
+    });
+    let files: Map<String, Value> =
+        plan.files.iter().map(|file| (file.label.clone(), file.sha256.clone().into())).collect();
+    let sweeps: Vec<String> = plan.axes.iter().map(|axis| axis.place.to_string()).collect();
+    Ok(json!({
+        "title": plan.title,
+        "virtwall": env!("CARGO_PKG_VERSION"),
+        "on": options.on,
+        "seed": plan.resolved["seed"],
+        "runs": table.rows.len(),
+        "runs_csv_sha256": sha256(&table.to_csv()?),
+        "sweeps": sweeps,
+        "experiment": plan.resolved,
+        "problems": problems.collect::<Vec<Value>>(),
+        "files": files,
+        "warnings": plan.warnings,
+    }))
+}
+
+/// Writes how long the host took: apart from the results, which do not depend on it.
+///
+/// # Errors
+/// If the file cannot be written.
+pub fn write_host_times(
+    out: &Path,
+    endings: &Endings,
+    seconds: f64,
+    threads: usize,
+) -> io::Result<()> {
+    let times = json!({ "threads": threads, "seconds": seconds, "runs": endings.host_seconds });
+    output::write(&out.join("host-times.json"), pretty(&times)?.as_bytes())
+}
+
+fn pretty(value: &Value) -> io::Result<String> {
+    Ok(serde_json::to_string_pretty(value)? + "\n")
+}

@@ -1,0 +1,89 @@
+//! Finished runs, each kept in a file of its own until its sweep is complete: a sweep that is
+//! killed goes on where it was.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use serde_json::json;
+
+use crate::digest::{program, sha256};
+use crate::figures::Figures;
+use crate::output;
+use crate::plan::{Plan, Run};
+use crate::runner::On;
+
+/// The folder of finished runs inside a folder of results.
+pub struct Saved {
+    folder: PathBuf,
+    program: String,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Entry {
+    key: String,
+    figures: Figures,
+}
+
+impl Saved {
+    /// The finished runs in the folder of results `out`.
+    pub fn in_folder(out: &Path) -> Saved {
+        Saved { folder: out.join(".partial"), program: program() }
+    }
+
+    /// What decides a run's figures: its settings, the files it reads, and this program.
+    pub fn key(&self, plan: &Plan, run: &Run, on: On) -> String {
+        let (prepared, point) = (&plan.problems[run.problem], &run.point);
+        let scene: Vec<&str> = prepared.digests.iter().map(|file| file.sha256.as_str()).collect();
+        let conditions = json!({
+            "program": self.program,
+            "on": on,
+            "scene": scene,
+            "settings": prepared.settings,
+            "machine": plan.machines[run.machine].digest.sha256,
+            "processors": point.processors,
+            "selection": point.selection,
+            "ties": point.ties,
+            "stop": point.stop,
+            "mapping": point.mapping,
+            "radiosity_updates": point.radiosity_updates,
+            "seed": point.seed,
+        });
+        sha256(conditions.to_string().as_bytes())
+    }
+
+    /// The figures of the run of this key, if it was finished. A file that is damaged counts as
+    /// none.
+    pub fn load(&self, key: &str) -> Option<Figures> {
+        let text = fs::read_to_string(self.path(key)).ok()?;
+        let entry: Entry = serde_json::from_str(&text).ok()?;
+        (entry.key == key).then_some(entry.figures)
+    }
+
+    /// Keeps the figures of a finished run.
+    ///
+    /// # Errors
+    /// If the folder or the file cannot be written.
+    pub fn store(&self, key: &str, figures: &Figures) -> io::Result<()> {
+        fs::create_dir_all(&self.folder)?;
+        let entry = Entry { key: key.to_owned(), figures: figures.clone() };
+        let text = serde_json::to_vec(&entry).map_err(io::Error::other)?;
+        output::write(&self.path(key), &text)
+    }
+
+    /// Forgets all finished runs.
+    ///
+    /// # Errors
+    /// If the folder is there and cannot be removed.
+    pub fn forget(&self) -> io::Result<()> {
+        match fs::remove_dir_all(&self.folder) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+            _ => Ok(()),
+        }
+    }
+
+    fn path(&self, key: &str) -> PathBuf {
+        self.folder.join(format!("{key}.json"))
+    }
+}

@@ -1,0 +1,129 @@
+//! An axis of a plot: linear, logarithmic, or names side by side.
+
+use std::ops::Range;
+
+use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
+
+/// About how many ticks an axis has.
+const TICKS: f64 = 7.0;
+
+/// An axis: where values lie on it, and its ticks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scale {
+    low: f64,
+    high: f64,
+    logarithmic: bool,
+    ticks: Vec<f64>,
+    names: Vec<String>,
+}
+
+impl Scale {
+    /// A linear axis from 0, or from below if values are negative, to above the largest value.
+    pub fn linear(values: impl Iterator<Item = f64>) -> Scale {
+        let (low, high) = values.fold((0.0, 0.0), |(l, h): (f64, f64), v| (l.min(v), h.max(v)));
+        let high = if high > low { high + 0.04 * (high - low) } else { low + 1.0 };
+        let step = nice_step((high - low) / TICKS);
+        let first = (low / step).ceil() as i64;
+        let last = (high / step).floor() as i64;
+        let ticks = (first..=last).map(|i| i as f64 * step).collect();
+        Scale { low, high, logarithmic: false, ticks, names: Vec::new() }
+    }
+
+    /// A logarithmic axis around positive values.
+    pub fn logarithmic(values: impl Iterator<Item = f64>) -> Scale {
+        let (low, high) = values.fold((f64::MAX, 0.0), |(l, h): (f64, f64), v| (l.min(v), h.max(v)));
+        let (low, high) = if low <= high { (low / 1.1, high * 1.1) } else { (1.0, 10.0) };
+        let decades = (low.log10().floor() as i32)..=(high.log10().ceil() as i32);
+        let digits: &[f64] = if (high / low).log10() < 3.5 { &[1.0, 2.0, 5.0] } else { &[1.0] };
+        let ticks = decades
+            .flat_map(|decade| digits.iter().map(move |digit| digit * 10_f64.powi(decade)))
+            .filter(|tick| (low..=high).contains(tick))
+            .collect();
+        Scale { low, high, logarithmic: true, ticks, names: Vec::new() }
+    }
+
+    /// Names at 0, 1, 2, ...
+    pub fn names(names: &[String]) -> Scale {
+        let ticks = (0..names.len()).map(|i| i as f64).collect();
+        let high = names.len() as f64 - 0.5;
+        Scale { low: -0.5, high, logarithmic: false, ticks, names: names.to_vec() }
+    }
+
+    fn share(&self, value: f64) -> f64 {
+        if self.logarithmic {
+            (value / self.low).ln() / (self.high / self.low).ln()
+        } else {
+            (value - self.low) / (self.high - self.low)
+        }
+    }
+}
+
+impl Ranged for Scale {
+    type FormatOption = NoDefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, value: &f64, (from, to): (i32, i32)) -> i32 {
+        from + (self.share(*value) * f64::from(to - from)).round() as i32
+    }
+
+    fn key_points<Hint: KeyPointHint>(&self, _: Hint) -> Vec<f64> {
+        self.ticks.clone()
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.low..self.high
+    }
+}
+
+impl ValueFormatter<f64> for Scale {
+    fn format(value: &f64) -> String {
+        tick_text(*value)
+    }
+
+    fn format_ext(&self, value: &f64) -> String {
+        // Ticks of names are their indices; a cast from f64 saturates.
+        self.names.get(*value as usize).cloned().unwrap_or_else(|| tick_text(*value))
+    }
+}
+
+/// 1, 2 or 5 times a power of ten, not much below `step`.
+fn nice_step(step: f64) -> f64 {
+    let power = 10_f64.powf(step.log10().floor());
+    [1.0, 2.0, 5.0, 10.0].map(|digit| digit * power).into_iter().find(|nice| *nice >= step).unwrap_or(step)
+}
+
+fn tick_text(value: f64) -> String {
+    let magnitude = value.abs();
+    if value != 0.0 && !(1e-4..1e7).contains(&magnitude) {
+        return format!("{value:.0e}");
+    }
+    // Ticks have few digits; rounding hides that 3 × 0.1 is not quite 0.3.
+    ((value * 1e6).round() / 1e6).to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round_numbers_inside_the_axis() {
+        let axis = Scale::linear([1.0, 56.0].into_iter());
+        assert_eq!(axis.ticks, [0.0, 10.0, 20.0, 30.0, 40.0, 50.0]);
+        let axis = Scale::logarithmic([1.0, 56.0].into_iter());
+        assert_eq!(axis.ticks, [1.0, 2.0, 5.0, 10.0, 20.0, 50.0]);
+        assert_eq!(tick_text(3.0 * 0.1), "0.3");
+    }
+
+    #[test]
+    fn no_values_and_one_value_still_make_an_axis() {
+        for axis in [
+            Scale::linear([].into_iter()),
+            Scale::linear([0.0].into_iter()),
+            Scale::logarithmic([].into_iter()),
+            Scale::logarithmic([3.0].into_iter()),
+        ] {
+            assert!(axis.low < axis.high, "{axis:?}");
+            assert!(axis.map(&axis.low, (10, 500)) == 10 && axis.map(&axis.high, (10, 500)) == 500);
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! The results of an experiment as rows of text: what runs.csv holds, and all that is drawn from.
+
+use std::path::Path;
+
+use crate::columns;
+use crate::fault::Fault;
+use crate::plan::{Plan, Run};
+use crate::runner::{Ending, Endings};
+
+/// Rows under named columns.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Table {
+    /// Names of the columns.
+    pub columns: Vec<String>,
+    /// One row a run, a cell a column.
+    pub rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    /// The results of a plan's runs, in the plan's order.
+    pub fn of(plan: &Plan, endings: &Endings) -> Table {
+        let columns = columns::names(&plan.axes);
+        let row = |(run, ending): (&Run, &Option<Ending>)| {
+            let view = View { plan, endings, run, ending: ending.as_ref() };
+            columns.iter().map(|column| view.cell(column)).collect()
+        };
+        let rows = plan.runs.iter().zip(&endings.runs).map(row).collect();
+        Table { columns, rows }
+    }
+
+    /// Reads a runs.csv.
+    ///
+    /// # Errors
+    /// If it cannot be read, or a row has too few or too many cells.
+    pub fn read(path: &Path) -> Result<Table, Fault> {
+        let cells = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect();
+        let read = || {
+            let mut reader = csv::Reader::from_path(path)?;
+            let columns = cells(reader.headers()?);
+            let rows = reader.records().map(|record| Ok(cells(&record?)));
+            Ok(Table { columns, rows: rows.collect::<Result<_, csv::Error>>()? })
+        };
+        let refuse = |error| Fault::of_file(path.display(), format!("cannot be read: {error}"));
+        read().map_err(|error: csv::Error| refuse(error))
+    }
+
+    /// The table as CSV.
+    ///
+    /// # Errors
+    /// None is known: it is written to memory.
+    pub fn to_csv(&self) -> std::io::Result<Vec<u8>> {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        writer.write_record(&self.columns)?;
+        for row in &self.rows {
+            writer.write_record(row)?;
+        }
+        writer.into_inner().map_err(|error| std::io::Error::other(error.to_string()))
+    }
+
+    /// A cell; empty if there is no such column.
+    pub fn cell<'a>(&'a self, row: &'a [String], column: &str) -> &'a str {
+        let index = self.columns.iter().position(|name| name == column);
+        index.and_then(|index| row.get(index)).map_or("", String::as_str)
+    }
+
+    /// A cell as a number, its unit left out; `None` if it is none.
+    pub fn number(&self, row: &[String], column: &str) -> Option<f64> {
+        let text = self.cell(row, column).trim();
+        let number = text.split_whitespace().next()?.trim_end_matches('%');
+        number.parse().ok().filter(|number: &f64| number.is_finite())
+    }
+}
+
+/// One run among the others.
+struct View<'a> {
+    plan: &'a Plan,
+    endings: &'a Endings,
+    run: &'a Run,
+    ending: Option<&'a Ending>,
+}
+
+impl View<'_> {
+    fn cell(&self, column: &str) -> String {
+        let point = &self.run.point;
+        let published = || self.plan.comparison.of(&point.scene, point.processors);
+        match column {
+            "scene" => point.scene.clone(),
+            "processors" => point.processors.to_string(),
+            "local_environments" => point.local_environments.to_string(),
+            "seed" => point.seed.to_string(),
+            "speed_up" => self.speed_up().map_or(String::new(), |s| format!("{s:.4}")),
+            "efficiency" => {
+                let share = self.speed_up().map(|s| s / f64::from(point.processors));
+                share.map_or(String::new(), |share| format!("{share:.4}"))
+            }
+            "paper_time_s" => published().time_s,
+            "paper_speed_up" => published().speed_up,
+            _ => self.swept(column).unwrap_or_else(|| self.figure(column)),
+        }
+    }
+
+    /// The value of a swept field.
+    fn swept(&self, column: &str) -> Option<String> {
+        let mut axes = self.plan.axes.iter().zip(&self.run.index);
+        let (axis, &item) = axes.find(|(axis, _)| axis.place.to_string() == column)?;
+        Some(columns::cell(&axis.values[item]))
+    }
+
+    fn figure(&self, column: &str) -> String {
+        match (self.ending, column) {
+            (Some(Ok(figures)), _) => columns::figure(figures, column).unwrap_or_default(),
+            (Some(Err(_)), "ending") => "failed".to_owned(),
+            (Some(Err(message)), "failure") => message.clone(),
+            _ => String::new(),
+        }
+    }
+
+    /// Time on one processor, all else equal, over this run's time.
+    fn speed_up(&self) -> Option<f64> {
+        let axes = || self.plan.axes.iter().map(|axis| axis.place.to_string());
+        let all_else_equal = |other: &&(&Run, &Option<Ending>)| {
+            let differs = |i: usize| other.0.index[i] != self.run.index[i];
+            axes().enumerate().all(|(i, name)| name == "processors" || !differs(i))
+                && other.0.point.processors == 1
+        };
+        let runs: Vec<_> = self.plan.runs.iter().zip(&self.endings.runs).collect();
+        let (_, one) = runs.iter().find(all_else_equal)?;
+        let time = |ending: Option<&Ending>| ending?.as_ref().ok()?.time_s;
+        let (one, time) = (time(one.as_ref())?, time(self.ending)?);
+        (time > 0.0).then_some(one / time)
+    }
+}

@@ -1,0 +1,236 @@
+//! OBJ files, good, odd and broken.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use glam::DVec3;
+use proptest::prelude::*;
+use radiosity::{DEFAULT_REFLECTANCE, Scene, SceneError, WarningKind, Warnings, load_obj};
+use tempfile::TempDir;
+
+fn data(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name)
+}
+
+/// Loads an OBJ text, with an MTL text beside it as `a.mtl`.
+fn load(obj: impl AsRef<[u8]>, mtl: Option<&str>) -> Result<(Scene, Warnings), SceneError> {
+    let folder = TempDir::new().expect("a folder for a moment");
+    if let Some(mtl) = mtl {
+        fs::write(folder.path().join("a.mtl"), mtl).expect("a file in it");
+    }
+    let path = folder.path().join("a.obj");
+    fs::write(&path, obj).expect("a file in it");
+    load_obj(&path)
+}
+
+/// The message for a broken OBJ text, without the folder.
+fn complaint(obj: impl AsRef<[u8]>, mtl: Option<&str>) -> String {
+    let message = load(obj, mtl).expect_err("this makes no sense").to_string();
+    let file = message.rfind("a.obj").or(message.rfind("a.mtl")).expect("a file is named");
+    message[file..].to_owned()
+}
+
+const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+#[test]
+fn a_box_loads_exactly() {
+    let (scene, warnings) = load_obj(&data("box.obj")).unwrap();
+    assert!(warnings.is_empty(), "{warnings:?}");
+    assert_eq!(scene.origin, DVec3::new(500_001.0, 4_000_000.5, 10.5));
+    assert_eq!(scene.bounds.size(), DVec3::new(2.0, 1.0, 1.0));
+    assert_eq!(scene.objects, ["floor", "walls", "lamp", "screen"]);
+    assert_eq!(scene.polygons.len(), 8);
+    assert_eq!(scene.vertices.len(), 12);
+
+    let floor = &scene.polygons[0];
+    assert_eq!(floor.vertices.len(), 4, "the corner within an edge goes");
+    assert_eq!((floor.plane.normal, floor.plane.offset), (DVec3::Z, -0.5));
+    assert_eq!(floor.area, 2.0);
+    assert_eq!(scene.material(floor).reflectance, DVec3::splat(0.7));
+
+    let lamp = &scene.polygons[5];
+    assert_eq!(lamp.plane.normal, DVec3::NEG_Z);
+    assert_eq!(scene.emitted_power(), DVec3::new(200.0, 180.0, 160.0));
+
+    let [front, back] = &scene.polygons[6..] else { panic!("a screen has two sides") };
+    assert_eq!(front.plane, back.plane.reversed());
+    assert!(front.vertices.iter().eq(back.vertices.iter().rev()));
+}
+
+#[test]
+fn odd_faces_are_mended_and_counted() {
+    let (scene, warnings) = load_obj(&data("odd.obj")).unwrap();
+    let counts: Vec<_> = warnings.iter().map(|w| (w.kind, w.count)).collect();
+    let expected = [
+        (WarningKind::MissingMaterialFile, 1),
+        (WarningKind::MissingMaterial, 9),
+        (WarningKind::ZeroArea, 3),
+        (WarningKind::NonPlanar, 1),
+        (WarningKind::Concave, 2),
+        (WarningKind::SelfCrossing, 1),
+        (WarningKind::Duplicate, 1),
+    ];
+    assert_eq!(counts, expected);
+    let lines: Vec<String> = warnings.iter().map(ToString::to_string).collect();
+    assert!(lines[1].contains("line 20 asks for \"nowhere\""), "{}", lines[1]);
+    assert_eq!(lines[2], "3 faces without area dropped (first: object \"flat\", face 1)");
+    assert!(scene.polygons.iter().all(|p| scene.material(p).reflectance == DEFAULT_REFLECTANCE));
+
+    let area_of = |name: &str| -> f64 {
+        let own = |p: &&radiosity::Polygon| scene.objects[p.object as usize] == name;
+        scene.polygons.iter().filter(own).map(|p| p.area).sum()
+    };
+    assert_eq!(area_of("sound"), 2.0, "front and back are not duplicates");
+    assert_eq!(area_of("chevron"), 0.25);
+    assert!(area_of("warped") > 1.0);
+}
+
+#[test]
+fn messages_name_file_line_value_and_what_was_expected() {
+    let face = |line: &str| complaint(format!("{SQUARE}{line}\n"), None);
+    assert_eq!(face("f 1 2 9"), "a.obj:5: vertex \"9\" of a face; expected 1 to 4 here");
+    assert_eq!(face("f 1 2 0"), "a.obj:5: vertex \"0\" of a face; expected 1 to 4 here");
+    assert_eq!(face("f 1 2 -5"), "a.obj:5: vertex \"-5\" of a face; expected 1 to 4 here");
+    assert_eq!(
+        face("f 1 2 x"),
+        "a.obj:5: \"f 1 2 x\": face parse error; expected numbers of vertices: \
+         f 1 2 3, or f 1/1/1 2/2/2 3/3/3"
+    );
+    assert_eq!(
+        complaint("v 0 0 0\nv 0 zero 0\n", None),
+        "a.obj:2: \"v 0 zero 0\": position parse error; expected three numbers: v X Y Z"
+    );
+    assert!(complaint("v 0 0\n", None).starts_with("a.obj:1: \"v 0 0\": position"));
+    for (word, value) in [("nan", "NaN"), ("inf", "inf"), ("1e400", "inf"), ("2e12", "20000")] {
+        let message = complaint(format!("{SQUARE}v 0 0 {word}\nf 1 2 5\n"), None);
+        assert!(message.starts_with("a.obj:5: "), "{message}");
+        assert!(message.contains(value) && message.contains("expected finite"), "{message}");
+    }
+    assert!(complaint("", None).starts_with("a.obj: no surface"));
+    assert!(complaint(SQUARE, None).contains("expected at least one"));
+    assert!(complaint(format!("{SQUARE}f 1 2 2"), None).contains("1 faces, none with an area"));
+
+    let nowhere = load_obj(Path::new("no/such.obj")).expect_err("there is none").to_string();
+    assert!(nowhere.starts_with("no/such.obj: cannot be read: "), "{nowhere}");
+}
+
+#[test]
+fn materials_that_cannot_be_are_refused() {
+    let material = |lines: &str| {
+        let obj = format!("mtllib a.mtl\n{SQUARE}usemtl m\nf 1 2 3 4\n");
+        complaint(obj, Some(&format!("newmtl m\n{lines}\n")))
+    };
+    let kd = |value: &str| {
+        format!(
+            "a.mtl:2: material \"m\": reflectance (Kd) is {value}; \
+             expected 0 or more and less than 1"
+        )
+    };
+    assert_eq!(material("Kd 0.5 1 0.5"), kd("0.5 1 0.5"));
+    assert_eq!(material("Kd -0.1"), kd("-0.1 -0.1 -0.1"));
+    assert_eq!(material("Kd nan"), kd("NaN NaN NaN"));
+    for line in ["Ke 0 -1 0", "Ke inf 0 0"] {
+        assert!(material(line).contains("emission (Ke)"));
+    }
+    assert_eq!(
+        material("Kd 0.5 0.5"),
+        "a.mtl:2: Kd is \"0.5 0.5\"; expected numbers: red green blue"
+    );
+    assert!(material("Ke bright").contains("\"bright\"; expected numbers"));
+    assert!(material("virtwall_two_sided yes").contains("expected 0 or 1"));
+    assert!(material("newmtl").contains("expected newmtl NAME"));
+}
+
+#[test]
+fn old_encodings_and_vertex_colours_do_no_harm() {
+    let obj = b"\xef\xbb\xbfo caf\xe9\nv 0 0 0 1 0 0\nv 1 0 0\r\nv 0 1 0 1\nf 1/7/8 2 3\n";
+    let (scene, _) = load(obj, None).unwrap();
+    assert_eq!(scene.objects, ["caf\u{fffd}"]);
+    assert_eq!(scene.area(), 0.5);
+}
+
+/// Texts like OBJ files, mostly broken.
+fn mutated() -> impl Strategy<Value = Vec<u8>> {
+    let good = fs::read(data("odd.obj")).expect("a file of ours");
+    let length = good.len();
+    let edit = (0..length, 0..4usize, prop::collection::vec(any::<u8>(), 0..4));
+    prop::collection::vec(edit, 0..12).prop_map(move |edits| {
+        let mut text = good.clone();
+        for (at, gone, new) in edits {
+            let at = at.min(text.len());
+            let end = (at + gone).min(text.len());
+            text.splice(at..end, new);
+        }
+        text
+    })
+}
+
+/// Lines out of the words of the formats, well formed or not.
+fn jumbled() -> impl Strategy<Value = String> {
+    let words = "v f o g usemtl mtllib newmtl Kd Ke l \\ # a.mtl m 0 1 2 3 4 -1 -2 0.5 1e-9 1e308 \
+                 nan 1/2/3 2//1 9223372036854775807 -9223372036854775808";
+    let words: Vec<&str> = words.split(' ').collect();
+    let line = prop::collection::vec(prop::sample::select(words), 0..7);
+    prop::collection::vec(line, 0..30)
+        .prop_map(|lines| lines.iter().map(|words| words.join(" ") + "\n").collect())
+}
+
+/// Faces over few places, so that corners, edges and planes coincide.
+fn tangled() -> impl Strategy<Value = String> {
+    let place = prop::array::uniform3(prop::sample::select(vec![0.0, 1e-10, 0.3, 0.5, 1.0]));
+    let face = prop::collection::vec(1..13u32, 1..9);
+    (prop::collection::vec(place, 12), prop::collection::vec(face, 1..12)).prop_map(
+        |(places, faces)| {
+            let vertices = places.iter().map(|[x, y, z]| format!("v {x} {y} {z}\n"));
+            let faces = faces.iter().map(|face| {
+                face.iter().fold("f".to_owned(), |line, v| format!("{line} {v}")) + "\n"
+            });
+            vertices.chain(faces).collect()
+        },
+    )
+}
+
+/// What a clean scene promises.
+fn assert_clean(scene: &Scene) {
+    for polygon in &scene.polygons {
+        let corners: Vec<DVec3> = scene.corners(polygon).collect();
+        let normal = polygon.plane.normal;
+        assert!(corners.len() >= 3 && polygon.area > 0.0);
+        assert!((normal.length() - 1.0).abs() < 1e-12);
+        let size = scene.bounds.size().length();
+        for (i, &corner) in corners.iter().enumerate() {
+            assert!((normal.dot(corner) - polygon.plane.offset).abs() <= 1e-6 * size);
+            let next = corners[(i + 1) % corners.len()];
+            for &other in &corners {
+                let inside = (next - corner).cross(other - corner).dot(normal);
+                assert!(inside >= -1e-9 * size * size, "{corners:?} is not convex");
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 1000, ..ProptestConfig::default() })]
+
+    #[test]
+    fn mutations_never_panic(text in mutated()) {
+        let _ = load(text, None);
+    }
+
+    #[test]
+    fn jumbled_words_never_panic(obj in jumbled(), mtl in jumbled()) {
+        let _ = load(obj, Some(&mtl));
+    }
+
+    #[test]
+    fn random_bytes_never_panic(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+        let _ = load(&bytes, Some(&String::from_utf8_lossy(&bytes)));
+    }
+
+    #[test]
+    fn tangled_faces_come_out_clean(text in tangled()) {
+        if let Ok((scene, _)) = load(text, None) {
+            assert_clean(&scene);
+        }
+    }
+}

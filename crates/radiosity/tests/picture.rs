@@ -1,0 +1,162 @@
+//! Pictures of small scenes whose pixels are known.
+
+use glam::DVec3;
+use radiosity::{Camera, Exposure, Face, Material, Picture, PictureOptions, Rgb, Scene, render};
+
+/// Two horizontal squares, 2 m wide, at heights 0 and 1, facing as told.
+fn squares(upper_faces_up: bool) -> Scene {
+    let square = |z: f64, up: bool| {
+        let mut points: Vec<DVec3> = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+            .map(|(x, y)| DVec3::new(x, y, z))
+            .to_vec();
+        if !up {
+            points.reverse();
+        }
+        Face { points, material: 0, object: 0 }
+    };
+    let grey = Material {
+        name: "grey".to_owned(),
+        reflectance: Rgb::splat(0.5),
+        emission: Rgb::ZERO,
+        two_sided: false,
+    };
+    let faces = [square(0.0, true), square(1.0, upper_faces_up)];
+    Scene::new(&faces, vec![grey], vec!["squares".to_owned()]).expect("squares are a scene").0
+}
+
+/// Looks straight down from 10 m.
+fn from_above() -> Camera {
+    Camera {
+        eye: DVec3::new(0.0, 0.0, 10.0),
+        target: DVec3::ZERO,
+        up: DVec3::Y,
+        field_of_view_degrees: 40.0,
+        width: 60,
+        height: 40,
+    }
+}
+
+/// The lower square is red, the upper green where x is negative and blue elsewhere.
+fn colour(polygon: u32, point: DVec3) -> Rgb {
+    match polygon {
+        0 => Rgb::X,
+        _ if point.x < 0.0 => Rgb::Y,
+        _ => Rgb::Z,
+    }
+}
+
+fn draw(scene: &Scene, options: PictureOptions) -> Picture {
+    let exposure = Exposure::MiddleGrey(1.0);
+    render(scene, &from_above(), colour, PictureOptions { exposure, ..options })
+        .expect("a small picture")
+}
+
+fn pixel(picture: &Picture, column: usize, row: usize) -> [u8; 3] {
+    let at = 3 * (row * picture.width as usize + column);
+    [picture.rgb[at], picture.rgb[at + 1], picture.rgb[at + 2]]
+}
+
+/// What middle grey becomes, and each colour of its radiosity: worked out by hand from Reinhard's
+/// equation 4 (key 0.35, white 2.1) and sRGB's transfer function.
+const GREY: [u8; 3] = [144; 3];
+const RED: [u8; 3] = [156, 0, 0];
+const GREEN: [u8; 3] = [0, 148, 0];
+const BLUE: [u8; 3] = [0, 0, 158];
+const BACKGROUND: [u8; 3] = [29; 3];
+
+#[test]
+fn the_nearer_polygon_is_seen() {
+    let picture = draw(&squares(true), PictureOptions::default());
+    assert_eq!(pixel(&picture, 28, 20), GREEN);
+    assert_eq!(pixel(&picture, 31, 20), BLUE);
+    assert_eq!(pixel(&picture, 1, 1), BACKGROUND);
+}
+
+#[test]
+fn backs_are_invisible() {
+    let picture = draw(&squares(false), PictureOptions::default());
+    assert_eq!(pixel(&picture, 28, 20), RED);
+}
+
+#[test]
+fn what_is_above_the_cut_is_left_out() {
+    let cut_above = Some(0.0);
+    let picture = draw(&squares(true), PictureOptions { cut_above, ..Default::default() });
+    assert_eq!(pixel(&picture, 28, 20), RED);
+}
+
+#[test]
+fn edges_fall_where_perspective_puts_them() {
+    // The eye stands 9.5 m above the upper square (heights are local), whose edge is 1 m away.
+    let picture = draw(&squares(true), PictureOptions::default());
+    let edge = 1.0 / (9.5 * 20f64.to_radians().tan()) * 20.0;
+    let first = (0..60).find(|&column| pixel(&picture, column, 20) != BACKGROUND);
+    assert_eq!(first, Some((30.0 - edge).floor() as usize));
+}
+
+#[test]
+fn a_camera_inside_a_scene_sees_what_is_ahead() {
+    let scene = squares(true);
+    let camera = Camera {
+        eye: DVec3::NEG_Z * 0.4,
+        target: DVec3::new(0.0, 0.9, -0.4),
+        up: DVec3::Z,
+        ..from_above()
+    };
+    let picture = render(&scene, &camera, |_, _| Rgb::ONE, PictureOptions::default()).unwrap();
+    assert_eq!(pixel(&picture, 30, 39), GREY, "the floor before the eye");
+    assert_eq!(pixel(&picture, 30, 0), BACKGROUND);
+}
+
+#[test]
+fn an_overview_just_holds_the_scene() {
+    let scene = squares(true);
+    let camera = Camera { width: 300, height: 200, ..Camera::overview(&scene.bounds) };
+    let picture = render(&scene, &camera, |_, _| Rgb::ONE, PictureOptions::default()).unwrap();
+    let seen: Vec<(usize, usize)> = (0..300 * 200)
+        .map(|i| (i % 300, i / 300))
+        .filter(|&(column, row)| pixel(&picture, column, row) != BACKGROUND)
+        .collect();
+    let (left, right) = (seen.iter().map(|s| s.0).min(), seen.iter().map(|s| s.0).max());
+    let (top, bottom) = (seen.iter().map(|s| s.1).min(), seen.iter().map(|s| s.1).max());
+    let [left, right, top, bottom] = [left, right, top, bottom].map(Option::unwrap);
+    assert!(left > 0 && right < 299 && top > 0 && bottom < 199);
+    assert!(right - left > 270 || bottom - top > 170, "{left} {right} {top} {bottom}");
+}
+
+#[test]
+fn strange_cameras_do_no_harm() {
+    let scene = squares(true);
+    let at = |eye, target| Camera { eye, target, ..from_above() };
+    let cameras = [
+        at(DVec3::ZERO, DVec3::ZERO),
+        at(DVec3::ZERO, DVec3::Y),
+        at(DVec3::NAN, DVec3::ZERO),
+        at(DVec3::INFINITY, DVec3::ZERO),
+        Camera { up: DVec3::Z, ..from_above() },
+        Camera { field_of_view_degrees: 0.0, ..from_above() },
+        Camera { field_of_view_degrees: 180.0, ..from_above() },
+    ];
+    for camera in cameras {
+        let picture = render(&scene, &camera, colour, PictureOptions::default()).unwrap();
+        assert_eq!(picture.rgb.len(), 3 * 60 * 40);
+    }
+    for (width, height) in [(0, 10), (10, 0), (9000, 10)] {
+        let camera = Camera { width, height, ..from_above() };
+        let refused = render(&scene, &camera, colour, PictureOptions::default());
+        let message = refused.expect_err("no such picture").to_string();
+        assert!(message.contains("expected 1 to 8192"), "{message}");
+    }
+}
+
+#[test]
+fn a_png_holds_the_picture() {
+    let picture = draw(&squares(true), PictureOptions::default());
+    let bytes = picture.encode_png().unwrap();
+    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
+    let mut decoded = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut decoded).unwrap();
+    assert_eq!(decoded, picture.rgb);
+    let broken = Picture { width: 7, ..picture };
+    assert!(broken.encode_png().is_err());
+}

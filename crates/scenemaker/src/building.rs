@@ -1,0 +1,271 @@
+//! "It represents five floors of a building without any furniture and with one thousand light
+//! sources. This scene represents the Soda Hall Berkeley Computer Science building." (section 5.1)
+//!
+//! Not Soda Hall's plan, but its manner. Rooms along all four fronts; inside them a ring of corridors
+//! and a spine; between these, rooms without windows, two stair wells, and an atrium through all
+//! floors. Low floors hold a few halls and laboratories, high floors many small offices.
+
+mod lights;
+mod space;
+mod stairs;
+
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+
+use crate::obj::{
+    Cuboid,
+    Facing::{self, East, North, South, West},
+    Obj, Opening, Span,
+};
+use crate::stream::stream;
+use space::{Plan, Use};
+
+/// Outer extents in x and y, glass to glass, mm.
+const SIZE: [i32; 2] = [60_000, 32_000];
+/// Thickness of a wall, mm.
+const WALL: i32 = 200;
+/// From floor to floor, mm.
+const STOREY: i32 = 3600;
+/// From floor to ceiling, mm.
+const CLEAR: i32 = 3000;
+/// Thickness of landings and flights, mm.
+const SLAB: i32 = 200;
+
+/// The plan's bands from south to north, mm; what lies between two bands is wall.
+mod band {
+    use crate::obj::Span;
+    pub const SOUTH: Span = [200, 5300];
+    pub const SOUTH_CORRIDOR: Span = [5500, 7900];
+    pub const FRONT: Span = [8100, 12_200];
+    pub const REAR: Span = [12_400, 15_900];
+    pub const SPINE: Span = [16_100, 18_900];
+    pub const BACK: Span = [19_100, 23_900];
+    pub const NORTH_CORRIDOR: Span = [24_100, 26_500];
+    pub const NORTH: Span = [26_700, 31_800];
+    /// Everything within the ring of corridors.
+    pub const CORE: Span = [FRONT[0], BACK[1]];
+    /// The front and the rear rows in one.
+    pub const DEEP: Span = [FRONT[0], REAR[1]];
+}
+
+/// The western half's columns, mm; the eastern half mirrors them.
+mod column {
+    use crate::obj::Span;
+    pub const WEST: Span = [200, 5000];
+    pub const CORRIDOR: Span = [5200, 7400];
+    pub const CORE: Span = [7600, 24_400];
+    pub const STAIRS: Span = [7600, 10_200];
+    pub const BESIDE_STAIRS: Span = [10_400, 24_400];
+}
+
+/// The atrium's extent in x, mm.
+const ATRIUM: Span = [24_600, 35_400];
+
+/// How many rooms lie in each row of a storey.
+struct Storey {
+    south: usize,
+    north: usize,
+    /// At the west end, and as many at the east end.
+    ends: usize,
+    /// Between south corridor and spine, on either side of the atrium.
+    inner: Inner,
+    /// Between spine and north corridor, on either side of the atrium.
+    back: usize,
+}
+
+enum Inner {
+    /// So many rooms from the corridor to the spine.
+    Deep(usize),
+    /// A front and a rear row of so many rooms each.
+    Rows(usize),
+}
+
+/// The five floors, from the lowest.
+const STOREYS: [Storey; 5] = [
+    Storey { south: 5, north: 6, ends: 2, inner: Inner::Deep(1), back: 1 },
+    Storey { south: 8, north: 9, ends: 3, inner: Inner::Deep(2), back: 2 },
+    Storey { south: 13, north: 14, ends: 4, inner: Inner::Rows(3), back: 3 },
+    Storey { south: 17, north: 18, ends: 5, inner: Inner::Rows(4), back: 5 },
+    Storey { south: 18, north: 18, ends: 5, inner: Inner::Rows(4), back: 5 },
+];
+
+/// Draws the scene.
+pub fn draw(seed: u64) -> Obj {
+    let mut obj = Obj::default();
+    let mut rng = stream(seed, "walls");
+    let plans: Vec<Plan> =
+        STOREYS.iter().enumerate().map(|(level, storey)| plan(level, storey, &mut rng)).collect();
+    for plan in &plans {
+        plan.draw(&mut obj);
+    }
+    for x in [column::STAIRS, mirrored(column::STAIRS)] {
+        stairs::draw(&mut obj, x, band::DEEP);
+    }
+    lights::draw(&mut obj, &plans);
+    obj
+}
+
+/// The same span on the other side of the building's middle.
+fn mirrored([a, b]: Span) -> Span {
+    [SIZE[0] - b, SIZE[0] - a]
+}
+
+/// Lays out one storey.
+fn plan(level: usize, storey: &Storey, rng: &mut ChaCha8Rng) -> Plan {
+    let mut layout = Layout::with_corridors(level, rng);
+    layout.shafts();
+    let [south, north] = [layout.south, layout.north];
+    let length = [WALL, SIZE[0] - WALL];
+    layout.row(storey.south, length, band::SOUTH, &[(North, south)]);
+    layout.row(storey.north, length, band::NORTH, &[(South, north)]);
+    for half in [Half::West, Half::East] {
+        layout.half(storey, half);
+    }
+    layout.plan
+}
+
+/// Which side of the atrium.
+#[derive(Clone, Copy)]
+enum Half {
+    West,
+    East,
+}
+
+/// A storey while it is laid out: its plan so far, and the indices of its corridors.
+struct Layout<'a> {
+    plan: Plan,
+    rng: &'a mut ChaCha8Rng,
+    south: usize,
+    north: usize,
+    /// West and east corridor.
+    cross: [usize; 2],
+    /// West and east part of the spine.
+    spine: [usize; 2],
+}
+
+impl<'a> Layout<'a> {
+    /// A ring of corridors and the spine, which the atrium interrupts.
+    fn with_corridors(level: usize, rng: &'a mut ChaCha8Rng) -> Layout<'a> {
+        let mut plan = Plan::new(level);
+        let length = [WALL, SIZE[0] - WALL];
+        let south = plan.add(Use::Corridor, length, band::SOUTH_CORRIDOR);
+        let north = plan.add(Use::Corridor, length, band::NORTH_CORRIDOR);
+        let between = [band::SOUTH_CORRIDOR[1], band::NORTH_CORRIDOR[0]];
+        let cross = [column::CORRIDOR, mirrored(column::CORRIDOR)]
+            .map(|x| plan.add(Use::Corridor, x, between));
+        let spine = [column::CORRIDOR[1], ATRIUM[0] - WALL];
+        let spine = [spine, mirrored(spine)].map(|x| plan.add(Use::Corridor, x, band::SPINE));
+        let z = plan.clear();
+        for (i, side) in [(0, East), (1, West)] {
+            let along = plan.spaces[cross[i]].hollow.x;
+            plan.join(south, North, cross[i], Opening { along, z });
+            plan.join(north, South, cross[i], Opening { along, z });
+            plan.join(cross[i], side, spine[i], Opening { along: band::SPINE, z });
+        }
+        Layout { plan, rng, south, north, cross, spine }
+    }
+
+    /// Stair wells and atrium. On the lowest floor arches lead into the atrium, above it they have
+    /// parapets.
+    fn shafts(&mut self) {
+        let floor = self.plan.floor();
+        for x in [column::STAIRS, mirrored(column::STAIRS)] {
+            let well = self.plan.add(Use::Stairs, x, band::DEEP);
+            let middle = (x[0] + x[1]) / 2;
+            let along = [middle - 450, middle + 450];
+            self.plan.join(well, South, self.south, Opening { along, z: [floor, floor + 2100] });
+        }
+        let atrium = self.plan.add(Use::Atrium, ATRIUM, band::CORE);
+        let sill = if self.plan.level == 0 { 0 } else { 1000 };
+        let z = [floor + sill, floor + 2500];
+        for bay in 0..3 {
+            let from = ATRIUM[0] + 600 + bay * 3400;
+            let arch = Opening { along: [from, from + 2800], z };
+            self.plan.join(atrium, South, self.south, arch);
+            self.plan.join(atrium, North, self.north, arch);
+        }
+        let along = [band::SPINE[0] + 300, band::SPINE[1] - 300];
+        self.plan.join(atrium, West, self.spine[0], Opening { along, z });
+        self.plan.join(atrium, East, self.spine[1], Opening { along, z });
+    }
+
+    /// The end front and the core on one side of the atrium.
+    fn half(&mut self, storey: &Storey, half: Half) {
+        let (index, inward) = match half {
+            Half::West => (0, East),
+            Half::East => (1, West),
+        };
+        let side = |x: Span| if index == 0 { x } else { mirrored(x) };
+        let [south, north] = [self.south, self.north];
+        let spine = self.spine[index];
+        self.end_row(storey.ends, side(column::WEST), band::CORE, (inward, self.cross[index]));
+        let beside = side(column::BESIDE_STAIRS);
+        match storey.inner {
+            Inner::Deep(count) => {
+                self.row(count, beside, band::DEEP, &[(South, south), (North, spine)]);
+            }
+            Inner::Rows(count) => {
+                self.row(count, beside, band::FRONT, &[(South, south)]);
+                self.row(count, beside, band::REAR, &[(North, spine)]);
+            }
+        }
+        self.row(storey.back, side(column::CORE), band::BACK, &[(North, north)]);
+    }
+
+    /// Rooms side by side from west to east, each with doors to the corridors named.
+    fn row(&mut self, count: usize, x: Span, y: Span, doors: &[(Facing, usize)]) {
+        for x in partition(self.rng, x, count) {
+            self.room(x, y, doors);
+        }
+    }
+
+    /// Rooms side by side from south to north.
+    fn end_row(&mut self, count: usize, x: Span, y: Span, door: (Facing, usize)) {
+        for y in partition(self.rng, y, count) {
+            self.room(x, y, &[door]);
+        }
+    }
+
+    fn room(&mut self, x: Span, y: Span, doors: &[(Facing, usize)]) {
+        let area = f64::from(x[1] - x[0]) * f64::from(y[1] - y[0]) * 1e-6;
+        let room = self.plan.add(Use::of_room(area), x, y);
+        for &(side, corridor) in doors {
+            let along = if matches!(side, East | West) { y } else { x };
+            let width = if area < 45.0 { 900 } else { 1800 };
+            // A door stands near one end of its wall, as it does where somebody works.
+            let from =
+                if self.rng.random_bool(0.5) { along[0] + 300 } else { along[1] - 300 - width };
+            let z = [self.plan.floor(), self.plan.floor() + 2100];
+            self.plan.join(room, side, corridor, Opening { along: [from, from + width], z });
+        }
+    }
+}
+
+/// Cuts a length into rooms of unequal width with walls between them; the widest takes up at most
+/// 1.8 times what the narrowest does.
+fn partition(rng: &mut ChaCha8Rng, [from, to]: Span, count: usize) -> Vec<Span> {
+    let weights: Vec<i32> = (0..count).map(|_| rng.random_range(10..=18)).collect();
+    let sum: i32 = weights.iter().sum();
+    let pitch = to + WALL - from;
+    let mut taken = 0;
+    let edge = |taken: i32| from + pitch * taken / sum / 10 * 10;
+    let span = |weight: &i32| {
+        let west = edge(taken);
+        taken += weight;
+        [west, edge(taken) - WALL]
+    };
+    weights.iter().map(span).collect()
+}
+
+/// Elevation of a storey's floor, mm.
+fn elevation(level: usize) -> i32 {
+    // There are five levels: no truncation.
+    level as i32 * STOREY
+}
+
+/// The hollow of a space: shafts reach up to the floor above, rooms to their ceiling.
+fn hollow(usage: Use, level: usize, x: Span, y: Span) -> Cuboid {
+    let floor = elevation(level);
+    let open_above = usage.is_shaft() && level + 1 < STOREYS.len();
+    Cuboid { x, y, z: [floor, floor + if open_above { STOREY } else { CLEAR }] }
+}

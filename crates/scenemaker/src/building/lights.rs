@@ -1,0 +1,108 @@
+//! One thousand lights, each one panel in the grid of the ceiling's tiles.
+
+use crate::obj::{Cuboid, Facing::Down, Obj, Rect, Span};
+use crate::palette::LIGHT;
+
+use super::space::{Plan, Use};
+use super::{SIZE, SLAB, STOREY, STOREYS};
+
+/// How many lights there are (section 5.1).
+const LIGHTS: usize = 1000;
+/// Edge of a ceiling tile, mm. The tiles start at the middle of the building and divide its length
+/// and its width into even parts, so no panel crosses a plane that halves or quarters the plan.
+const TILE: i32 = 600;
+/// Edge of a panel within its tile, mm.
+const PANEL: i32 = 580;
+/// How far a panel hangs below the ceiling, mm.
+const DROP: i32 = 30;
+
+/// Choice: how the thousand lights are spread. Every space gets this many by its use; what remains
+/// is spaced evenly along all corridors. So floors that are cut up into many offices have more.
+fn lights_in(usage: Use) -> usize {
+    match usage {
+        Use::Office | Use::Shared => 2,
+        Use::Seminar | Use::Lab => 3,
+        Use::Stairs => 1,
+        Use::Atrium => 9,
+        Use::Corridor => 0,
+    }
+}
+
+/// Hangs the lights of the whole building.
+pub fn draw(obj: &mut Obj, plans: &[Plan]) {
+    let mut places = Vec::new();
+    for space in plans.iter().flat_map(|plan| &plan.spaces) {
+        if let Some(ceiling) = ceiling(space.usage, space.hollow) {
+            let count = lights_in(space.usage) as i32;
+            let length = longer(ceiling);
+            let along = |i: i32| (length[1] - length[0]) * (2 * i + 1) / (2 * count);
+            places.extend((0..count).map(|i| place(ceiling, along(i))));
+        }
+    }
+    corridor_lights(&mut places, plans);
+    for (i, [x, y, z]) in places.into_iter().enumerate() {
+        obj.object(format_args!("light {}", i + 1));
+        let span = |centre: i32| [centre - PANEL / 2, centre + PANEL / 2];
+        obj.rect(&LIGHT, Rect { facing: Down, at: z - DROP, u: span(x), v: span(y) });
+    }
+}
+
+/// Spaces the remaining lights evenly along the corridors, laid end to end.
+fn corridor_lights(places: &mut Vec<[i32; 3]>, plans: &[Plan]) {
+    let spaces = plans.iter().flat_map(|plan| &plan.spaces);
+    let corridors: Vec<Cuboid> =
+        spaces.filter(|s| s.usage == Use::Corridor).map(|s| s.hollow).collect();
+    let length = |c: &Cuboid| i64::from(longer(*c)[1] - longer(*c)[0]);
+    let total: i64 = corridors.iter().map(length).sum();
+    let count = LIGHTS.saturating_sub(places.len()) as i64;
+    let (mut start, mut i) = (0, 0);
+    for corridor in &corridors {
+        while i < count && total * (2 * i + 1) / (2 * count) < start + length(corridor) {
+            let along = total * (2 * i + 1) / (2 * count) - start;
+            places.push(place(*corridor, along as i32));
+            i += 1;
+        }
+        start += length(corridor);
+    }
+}
+
+/// The part of a space whose top is a ceiling to hang lights from: the landings of a stair well,
+/// the uppermost storey of the atrium.
+fn ceiling(usage: Use, hollow: Cuboid) -> Option<Cuboid> {
+    let Cuboid { y, z, .. } = hollow;
+    let uppermost = z[1] > STOREY * (STOREYS.len() as i32 - 1);
+    match usage {
+        Use::Atrium if !uppermost => None,
+        Use::Stairs if !uppermost => {
+            Some(Cuboid { y: [y[0], y[0] + 2200], z: [z[0], z[1] - SLAB], ..hollow })
+        }
+        Use::Stairs => Some(Cuboid { y: [y[0], y[0] + 2200], ..hollow }),
+        _ => Some(hollow),
+    }
+}
+
+fn longer(hollow: Cuboid) -> Span {
+    let Cuboid { x, y, .. } = hollow;
+    if x[1] - x[0] >= y[1] - y[0] { x } else { y }
+}
+
+/// The middle of the tile nearest to a place on the ceiling's long axis.
+fn place(hollow: Cuboid, along: i32) -> [i32; 3] {
+    let Cuboid { x, y, z } = hollow;
+    let middle = |span: Span| (span[0] + span[1]) / 2;
+    let at = longer(hollow)[0] + along;
+    let (px, py) = if longer(hollow) == x { (at, middle(y)) } else { (middle(x), at) };
+    [tile(px, SIZE[0] / 2, x), tile(py, SIZE[1] / 2, y), z[1]]
+}
+
+/// The middle of the tile nearest to `at` that lies within the span.
+fn tile(at: i32, origin: i32, [from, to]: Span) -> i32 {
+    let nearest = origin + (at - origin).div_euclid(TILE) * TILE + TILE / 2;
+    if nearest - TILE / 2 < from {
+        nearest + TILE
+    } else if nearest + TILE / 2 > to {
+        nearest - TILE
+    } else {
+        nearest
+    }
+}

@@ -1,0 +1,65 @@
+//! Stair wells: on every floor a landing to the south, half-way up one to the north, and between
+//! them two ramped flights on either side of a wall.
+
+use crate::obj::{
+    Cuboid,
+    Facing::{Down, East, North, South, Up, West},
+    Obj, Rect, Span,
+};
+use crate::palette::{CONCRETE, WALL};
+
+use super::{SLAB, STOREY, STOREYS, elevation};
+
+/// Width of a flight, mm.
+const FLIGHT: i32 = 1200;
+/// Depth of the landings to the south and to the north, mm.
+const LANDINGS: Span = [2200, 2000];
+/// What a flight rises, mm.
+const RISE: i32 = STOREY / 2;
+
+/// Draws all that stands in a well of that extent.
+pub fn draw(obj: &mut Obj, x: Span, y: Span) {
+    let run = [y[0] + LANDINGS[0], y[1] - LANDINGS[1]];
+    let (west, east) = ([x[0], x[0] + FLIGHT], [x[1] - FLIGHT, x[1]]);
+    let top = STOREYS.len() - 1;
+    for level in 0..top {
+        obj.object(format_args!(
+            "stairs {}.{}",
+            level + 1,
+            if x[0] < 30_000 { "west" } else { "east" }
+        ));
+        let floor = elevation(level);
+        flight(obj, west, run, [floor, floor + RISE]);
+        slab(obj, x, [run[1], y[1]], floor + RISE);
+        flight(obj, east, run, [floor + 2 * RISE, floor + RISE]);
+        slab(obj, x, [y[0], run[0]], floor + 2 * RISE);
+    }
+    // On the top floor nothing goes on from the western half of the landing.
+    let edge = elevation(top);
+    let v = [edge - SLAB, edge];
+    obj.rect(&CONCRETE, Rect { facing: North, at: run[0], u: west, v });
+    obj.object("spine");
+    let wall = Cuboid { x: [west[1], east[0]], y: run, z: [0, edge + 1000] };
+    obj.faces(&WALL, wall, &[East, West, North, South, Up]);
+}
+
+/// Top and bottom of a landing; flights hide its edge.
+fn slab(obj: &mut Obj, x: Span, y: Span, z: i32) {
+    obj.rect(&CONCRETE, Rect { facing: Up, at: z, u: x, v: y });
+    obj.rect(&CONCRETE, Rect { facing: Down, at: z - SLAB, u: x, v: y });
+}
+
+/// Top and bottom of a ramp between two walls, whose height goes from `z[0]` to `z[1]` as y goes
+/// along `run`. The lowest flight's bottom begins where it leaves the ground.
+fn flight(obj: &mut Obj, x: Span, run: Span, z: Span) {
+    let ramp = |y: Span, z: Span| {
+        [[x[0], y[0], z[0]], [x[1], y[0], z[0]], [x[1], y[1], z[1]], [x[0], y[1], z[1]]]
+    };
+    obj.quad(&CONCRETE, ramp(run, z));
+    let mut below = (run, z.map(|z| z - SLAB));
+    if below.1[0] < 0 {
+        below = ([run[0] + SLAB * (run[1] - run[0]) / RISE, run[1]], [0, below.1[1]]);
+    }
+    let [a, b, c, d] = ramp(below.0, below.1);
+    obj.quad(&CONCRETE, [b, a, d, c]);
+}

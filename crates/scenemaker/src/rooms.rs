@@ -1,0 +1,104 @@
+//! "A set of 32 similar rooms. Four tables, four doors open onto next rooms and one light source
+//! compose a room. This is a symmetrical scene with many occlusions." (section 5.1)
+//!
+//! Eight by four equal rooms. Each takes half of the depth of its walls and doors, so the planes
+//! between rooms belong to none. An outer door ends in a closed leaf.
+
+use crate::furniture::{around, column_table};
+use crate::obj::{
+    Cuboid,
+    Facing::{self, Down, East, North, South, Up, West},
+    Obj, Opening, Rect,
+};
+use crate::palette::{BLUE_WALL, CEILING, DOOR, FRAME, LIGHT, WARM_WALL, WOOD_FLOOR};
+
+/// Rooms along x and y.
+const GRID: [i32; 2] = [8, 4];
+/// From the middle of a wall to that of the next, mm.
+const PITCH: i32 = 5000;
+/// Half the thickness of a wall, mm.
+const HALF_WALL: i32 = 100;
+/// Floor to ceiling, mm.
+const HEIGHT: i32 = 3000;
+/// Width and height of a door, mm.
+const DOORWAY: [i32; 2] = [1000, 2100];
+/// Size of a table's top, mm.
+const TABLE: [i32; 2] = [1200, 800];
+/// From the room's centre to a table's, along x and y, mm.
+const TABLE_OFFSET: [i32; 2] = [1250, 1250];
+/// Size of the light, mm: eight patches of 0.3 m.
+const PANEL: [i32; 2] = [1200, 600];
+/// How far the light hangs below the ceiling, mm.
+const DROP: i32 = 30;
+
+/// Draws the scene.
+pub fn draw() -> Obj {
+    let mut obj = Obj::default();
+    for row in 0..GRID[1] {
+        for column in 0..GRID[0] {
+            room(&mut obj, column, row);
+        }
+    }
+    obj
+}
+
+fn room(obj: &mut Obj, column: i32, row: i32) {
+    let number = row * GRID[0] + column + 1;
+    let cell = Cuboid {
+        x: [column * PITCH, (column + 1) * PITCH],
+        y: [row * PITCH, (row + 1) * PITCH],
+        z: [0, HEIGHT],
+    };
+    obj.object(format_args!("room {number}"));
+    shell(obj, cell, |side| match side {
+        West => column == 0,
+        East => column == GRID[0] - 1,
+        South => row == 0,
+        North => row == GRID[1] - 1,
+        Up | Down => false,
+    });
+    let centre = [cell.x[0] + PITCH / 2, cell.y[0] + PITCH / 2];
+    for (i, [sx, sy]) in [[-1, -1], [1, -1], [-1, 1], [1, 1]].into_iter().enumerate() {
+        obj.object(format_args!("table {number}.{}", i + 1));
+        let place = [centre[0] + sx * TABLE_OFFSET[0], centre[1] + sy * TABLE_OFFSET[1]];
+        column_table(obj, place, TABLE);
+    }
+    obj.object(format_args!("light {number}"));
+    let (u, v) = (around(centre[0], PANEL[0]), around(centre[1], PANEL[1]));
+    obj.rect(&LIGHT, Rect { facing: Down, at: HEIGHT - DROP, u, v });
+}
+
+/// Floor, ceiling, and walls with a door in the middle of each.
+fn shell(obj: &mut Obj, cell: Cuboid, outer: impl Fn(Facing) -> bool) {
+    let inside = |[a, b]: [i32; 2]| [a + HALF_WALL, b - HALF_WALL];
+    let hollow = Cuboid { x: inside(cell.x), y: inside(cell.y), z: cell.z };
+    obj.rect(&CEILING, hollow.inner(Down));
+    // Under an outer wall the floor runs on to the closed leaf, and serves as that door's sill: so
+    // all rooms have equally many polygons.
+    let mut floor = hollow;
+    for side in Facing::SIDES.into_iter().filter(|&side| outer(side)) {
+        match side {
+            West => floor.x[0] = cell.x[0],
+            East => floor.x[1] = cell.x[1],
+            South => floor.y[0] = cell.y[0],
+            _ => floor.y[1] = cell.y[1],
+        }
+    }
+    obj.rect(&WOOD_FLOOR, floor.inner(Up));
+    for side in Facing::SIDES {
+        // The wall on a room's east side faces west.
+        let facing = side.opposite();
+        let wall = hollow.inner(facing);
+        let middle = (wall.u[0] + wall.u[1]) / 2;
+        let door = Opening { along: around(middle, DOORWAY[0]), z: [0, DOORWAY[1]] };
+        let paint = if matches!(side, East | West) { &WARM_WALL } else { &BLUE_WALL };
+        obj.wall(paint, wall, &[door]);
+        let edge = cell.inner(facing).at;
+        let depth = [edge.min(wall.at), edge.max(wall.at)];
+        if outer(side) {
+            obj.recess([&FRAME, &DOOR], None, facing, depth, door);
+        } else {
+            obj.reveal(&FRAME, Some(&WOOD_FLOOR), facing, depth, door);
+        }
+    }
+}
