@@ -16,7 +16,8 @@ fn readme() -> String {
 /// Rows of the table whose header starts with `first`, by columns.
 fn table(text: &str, first: &str) -> Vec<Vec<String>> {
     let rows = text.lines().skip_while(|line| !line.starts_with(&format!("| {first}"))).skip(2);
-    let cells = |line: &str| line.trim_matches('|').split('|').map(|c| c.trim().to_owned()).collect();
+    let cells =
+        |line: &str| line.trim_matches('|').split('|').map(|c| c.trim().to_owned()).collect();
     rows.take_while(|line| line.starts_with('|')).map(cells).collect()
 }
 
@@ -26,7 +27,9 @@ fn defines(source: &str, item: &str) -> bool {
     source.lines().any(|line| {
         let ends = |rest: &str| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_');
         line.trim_start().starts_with(&field)
-            || starts.iter().any(|s| line.split_once(s.as_str()).is_some_and(|(_, rest)| ends(rest)))
+            || starts
+                .iter()
+                .any(|s| line.split_once(s.as_str()).is_some_and(|(_, rest)| ends(rest)))
     })
 }
 
@@ -48,7 +51,9 @@ fn the_map_names_all_of_the_paper() {
     ];
     for part in figures.chain(sections.map(str::to_owned)) {
         let named = |row: &Vec<String>| {
-            row[0].strip_prefix(&part).is_some_and(|rest| rest.is_empty() || rest.starts_with([' ', ',']))
+            row[0]
+                .strip_prefix(&part)
+                .is_some_and(|rest| rest.is_empty() || rest.starts_with([' ', ',']))
         };
         assert!(rows.iter().any(named), "{part} is not in the map");
     }

@@ -70,13 +70,12 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// The planes of a grid of `cells` over a scene. The grid reaches a little beyond the scene, by
-    /// different lengths at either end, so that the walls of a regular building do not all lie in
-    /// planes of the grid.
+    /// The planes of a grid of `cells` that just holds a scene; a flat scene gets some thickness.
     pub fn planes(scene: &Scene, cells: [u32; 3]) -> [Vec<f64>; 3] {
-        let margin = 1e-3 * scene.bounds.size().length();
+        let size = scene.bounds.size();
+        let margin = size.map(|s| if s > 0.0 { 0.0 } else { 1e-3 * size.length() });
         let low = scene.bounds.min - margin;
-        let size = scene.bounds.size() + 2.5 * margin;
+        let size = size + 2.0 * margin;
         std::array::from_fn(|axis| {
             let n = cells[axis];
             (0..=n).map(|i| low[axis] + size[axis] * (f64::from(i) / f64::from(n))).collect()

@@ -97,14 +97,10 @@ impl ComputeNode {
     /// §4.2.2: the greatest source, from the region or from the queue.
     async fn choose_best_source(&mut self, process: &impl Process) -> Option<Parcel> {
         let rules = &self.shared.rules;
-        let mut scan = Work::NONE;
-        scan.count(Operation::QueueScan, self.queue.len() as u64);
         let received = self.queue.best(rules.selection);
-        let mut local = None;
-        if self.selecting {
-            scan.count(Operation::PatchScan, self.region.patches());
-            local = self.region.best_patch();
-        }
+        let (local, mut scan) =
+            if self.selecting { self.region.best_patch() } else { (None, Work::NONE) };
+        scan.count(Operation::QueueScan, self.queue.len() as u64);
         self.tally.work += scan;
         process.compute(|| ((), scan)).await;
         match (received, local) {

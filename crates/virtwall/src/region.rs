@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use radiosity::{Light, Mask, Rgb, Shot};
+use radiosity::{Light, Mask, Operation, Rgb, Shot, Work};
 
 use crate::message::{Parcel, PatchUpdate};
 use crate::problem::Problem;
@@ -15,15 +15,22 @@ pub struct Region {
     /// Local patches below this value are not selected.
     threshold: f64,
     holdings: Vec<Holding>,
-    patches: u64,
 }
 
 /// One environment and its light.
 struct Holding {
     environment: u32,
     light: Light,
-    /// The best patch and its value: looked for again only after the light has changed.
-    best: Option<(f64, u32)>,
+    best: Best,
+}
+
+/// The patch of an environment with the greatest value.
+#[derive(Clone, Copy)]
+enum Best {
+    /// The light has changed since it was last looked for.
+    Unknown,
+    /// Its value and number; `None` when no patch has unshot light.
+    Known(Option<(f64, u32)>),
 }
 
 impl Region {
@@ -36,32 +43,39 @@ impl Region {
     ) -> Region {
         let hold = |environment: u32| {
             let light = Light::new(&problem.space, &problem.environments[environment as usize]);
-            let best = best_patch(problem, selection, environment, &light);
-            Holding { environment, light, best }
+            Holding { environment, light, best: Best::Unknown }
         };
-        let holdings: Vec<Holding> = environments.map(hold).collect();
-        let patches = holdings.iter().map(|h| h.light.unshot.len() as u64).sum();
-        Region { problem: Arc::clone(problem), selection, threshold, holdings, patches }
-    }
-
-    /// The greatest value of any patch.
-    pub(crate) fn greatest_value(&self) -> f64 {
-        self.holdings.iter().filter_map(|h| h.best).map(|(value, _)| value).fold(0.0, f64::max)
-    }
-
-    /// Number of patches: what the paper's linear search looks at.
-    pub(crate) fn patches(&self) -> u64 {
-        self.patches
+        let holdings = environments.map(hold).collect();
+        Region { problem: Arc::clone(problem), selection, threshold, holdings }
     }
 
     /// The local patch with the greatest value at or above the threshold: its value, holding and
-    /// number; of equals the lowest number.
-    pub(crate) fn best_patch(&self) -> Option<(f64, usize, u32)> {
-        let candidates = self.holdings.iter().enumerate().filter_map(|(holding, h)| {
-            let (value, patch) = h.best?;
-            (value >= self.threshold).then_some((value, holding, patch))
-        });
-        candidates.reduce(|best, other| if other.0 > best.0 { other } else { best })
+    /// number; of equals the lowest number. Also the work of looking for it.
+    ///
+    /// Choice C16: the best patch of each environment is remembered, and looked for again among all
+    /// patches of the environment only when its light has changed. Like §5.3, which fixes the number
+    /// of environments "in order to avoid super-linear speedup", this makes the cost of selection
+    /// depend on the environments and not on the processors that share them out.
+    pub(crate) fn best_patch(&mut self) -> (Option<(f64, usize, u32)>, Work) {
+        let mut work = Work::NONE;
+        let mut best: Option<(f64, usize, u32)> = None;
+        work.count(Operation::PatchScan, self.holdings.len() as u64);
+        for (holding, held) in self.holdings.iter_mut().enumerate() {
+            let of_environment = match held.best {
+                Best::Known(found) => found,
+                Best::Unknown => {
+                    work.count(Operation::PatchScan, held.light.unshot.len() as u64);
+                    let found = best_patch(&self.problem, self.selection, held);
+                    held.best = Best::Known(found);
+                    found
+                }
+            };
+            let Some((value, patch)) = of_environment else { continue };
+            if value >= self.threshold && best.is_none_or(|(other, ..)| value > other) {
+                best = Some((value, holding, patch));
+            }
+        }
+        (best, work)
     }
 
     /// Take a patch's unshot power as a source with an all-true mask (Figure 2).
@@ -70,7 +84,7 @@ impl Region {
         let held = &mut self.holdings[holding];
         let environment = &problem.environments[held.environment as usize];
         let source = held.light.take_source(&problem.space, environment, held.environment, patch);
-        held.best = best_patch(problem, self.selection, held.environment, &held.light);
+        held.best = Best::Unknown;
         let mask = Mask::all(problem.hemisphere.pixels());
         Parcel { environment: held.environment, source, mask, form_factor: 1.0 }
     }
@@ -81,7 +95,7 @@ impl Region {
         let Ok(place) = place else { return };
         let held = &mut self.holdings[place];
         held.light.receive(&parcel.source, shot);
-        held.best = best_patch(&self.problem, self.selection, held.environment, &held.light);
+        held.best = Best::Unknown;
     }
 
     /// By how much the radiosity of each patch that a shot hit has grown.
@@ -111,14 +125,9 @@ impl Region {
 }
 
 /// The patch of one environment with the greatest value, if any is positive.
-fn best_patch(
-    problem: &Problem,
-    selection: Selection,
-    environment: u32,
-    light: &Light,
-) -> Option<(f64, u32)> {
-    let geometry = &problem.environments[environment as usize];
-    let values = light.unshot.iter().zip(0u32..).map(|(&power, patch)| {
+fn best_patch(problem: &Problem, selection: Selection, held: &Holding) -> Option<(f64, u32)> {
+    let geometry = &problem.environments[held.environment as usize];
+    let values = held.light.unshot.iter().zip(0u32..).map(|(&power, patch)| {
         (selection.value_of(power, power / geometry.radiosity_area(patch)), patch)
     });
     values
