@@ -1,5 +1,6 @@
 //! How a command ends, and what it says.
 
+use std::error::Error;
 use std::io::{self, Write};
 
 use lab::Fault;
@@ -16,13 +17,13 @@ pub struct Exit {
 
 impl Exit {
     /// Something failed that the input is not to blame for.
-    pub fn failure(message: impl ToString) -> Exit {
-        Exit { code: 1, output: String::new(), message: message.to_string() }
+    pub fn failure(message: impl Into<Box<dyn Error>>) -> Exit {
+        Exit { code: 1, output: String::new(), message: message.into().to_string() }
     }
 
     /// Bad input.
-    pub fn bad_input(message: impl ToString) -> Exit {
-        Exit { code: 2, output: String::new(), message: message.to_string() }
+    pub fn bad_input(message: impl Into<Box<dyn Error>>) -> Exit {
+        Exit { code: 2, output: String::new(), message: message.into().to_string() }
     }
 }
 

@@ -58,14 +58,17 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     };
     let options = Options { threads, fresh: arguments.fresh, on };
     let progress = Arc::new(Progress::new(Arc::clone(&plan)));
-    let watch = { let progress = Arc::clone(&progress); Arc::new(move |event| progress.note(event)) };
+    let watch = {
+        let progress = Arc::clone(&progress);
+        Arc::new(move |event| progress.note(event))
+    };
     let endings = lab::carry_out(&plan, &out, options, watch).map_err(Exit::failure)?;
     progress.end();
 
     let results = Results::of(&plan, &endings, options).map_err(Exit::failure)?;
     results.write(&out).map_err(Exit::failure)?;
     lab::write_host_times(&out, &endings, clock.seconds(), threads).map_err(Exit::failure)?;
-    let output = format!("{}\n{}\n\nResults are in {place}.\n", plan.title, results.text());
+    let output = format!("{}\n{}\nResults are in {place}.\n", plan.title, results.text());
     match results.failures() {
         0 => Ok(output),
         failures => {

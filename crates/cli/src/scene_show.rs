@@ -6,7 +6,7 @@ use clap::Args;
 use lab::OpenScene;
 use radiosity::{
     Camera, Hemisphere, HemisphereKind, LocalEnvironment, PatchSize, Picture, PictureError,
-    PictureOptions, Rgb, Space, studio_light, render, solve,
+    PictureOptions, Rgb, Space, render, solve, studio_light,
 };
 
 use crate::exit::Exit;
@@ -68,7 +68,10 @@ fn numbers(open: &OpenScene) -> String {
     line("bounds", format!("{} to {} m", world(scene.bounds.min), world(scene.bounds.max)));
     line("area", format!("{:.1} m²", scene.area()));
     line("emitted power", format!("{power} W (red, green, blue)"));
-    line("patch size", format!("{:.3} m, of lights {:.3} m", open.patch_size, open.emitter_patch_size));
+    line(
+        "patch size",
+        format!("{:.3} m, of lights {:.3} m", open.patch_size, open.emitter_patch_size),
+    );
     line("cells", format!("{x} x {y} x {z}"));
     open.warnings.iter().for_each(|warning| line("warning", warning.clone()));
     text

@@ -11,12 +11,14 @@ use crate::scale::Scale;
 use crate::series::{Drawing, Series};
 use crate::table::Table;
 
+/// Drawing units a pixel: plotters rounds coordinates to whole units, which one would see.
+const FINE: u32 = 8;
 /// Size of a plot, pixels.
 const SIZE: (u32, u32) = (800, 540);
 /// Room on the right for the names of lines, pixels.
 const NAMES: u32 = 130;
-/// Height of a line's name, pixels.
-const NAME_HEIGHT: i32 = 17;
+/// Height of a line's name.
+const NAME_HEIGHT: i32 = px(17);
 
 /// Okabe and Ito's colours, which colour-blind readers can tell apart.
 const COLOURS: [RGBColor; 6] = [
@@ -41,14 +43,29 @@ pub fn svg(table: &Table, sweeps: &[String], plot: &Plot) -> String {
     let drawing = Drawing::of(table, sweeps, plot);
     let mut text = String::new();
     let drawn = {
-        let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
+        let size = (SIZE.0 * FINE, SIZE.1 * FINE);
+        let area = SVGBackend::with_string(&mut text, size).into_drawing_area();
         draw(&area, &drawing, plot)
     };
     match drawn {
-        Ok(()) => text,
+        Ok(()) => in_pixels(&text),
         // Drawing to memory does not fail; should a plot ever, it says so in its place.
-        Err(error) => format!("<svg xmlns=\"http://www.w3.org/2000/svg\"><desc>{error}</desc></svg>"),
+        Err(error) => {
+            format!("<svg xmlns=\"http://www.w3.org/2000/svg\"><desc>{error}</desc></svg>")
+        }
     }
+}
+
+/// The same drawing, shown in its size in pixels: its view box keeps the finer units.
+fn in_pixels(svg: &str) -> String {
+    let [fine, pixels] =
+        [FINE, 1].map(|unit| format!("width=\"{}\" height=\"{}\"", SIZE.0 * unit, SIZE.1 * unit));
+    svg.replacen(&fine, &pixels, 1)
+}
+
+/// Drawing units of a length in pixels.
+const fn px(pixels: u32) -> i32 {
+    (pixels * FINE) as i32
 }
 
 fn draw(area: &Area, drawing: &Drawing, plot: &Plot) -> Drawn {
@@ -57,22 +74,24 @@ fn draw(area: &Area, drawing: &Drawing, plot: &Plot) -> Drawn {
         title.replace(" (s)", "")
     });
     area.fill(&WHITE)?;
-    area.draw(&Text::new(title, (24, 18), font(19).color(&INK)))?;
+    area.draw(&Text::new(title, (px(24), px(18)), font(19, INK)))?;
     let mut chart = ChartBuilder::on(area)
-        .margin_top(56)
-        .margin_right(NAMES)
-        .margin_bottom(14)
-        .margin_left(14)
-        .x_label_area_size(48)
-        .y_label_area_size(62)
+        .margin_top(px(56))
+        .margin_right(px(NAMES))
+        .margin_bottom(px(14))
+        .margin_left(px(14))
+        .x_label_area_size(px(48))
+        .y_label_area_size(px(62))
         .build_cartesian_2d(x_scale(drawing, plot), y_scale(drawing, plot))?;
     chart
         .configure_mesh()
-        .bold_line_style(GRID)
+        .disable_x_mesh()
+        .bold_line_style(line(GRID, 1))
         .light_line_style(TRANSPARENT)
-        .axis_style(PALE)
-        .label_style(font(14).color(&INK))
-        .axis_desc_style(font(15).color(&INK))
+        .axis_style(line(PALE, 1))
+        .set_all_tick_mark_size(px(5))
+        .label_style(font(14, INK))
+        .axis_desc_style(font(15, INK))
         .x_desc(label(&plot.x))
         .y_desc(label(&plot.y))
         .draw()?;
@@ -81,7 +100,7 @@ fn draw(area: &Area, drawing: &Drawing, plot: &Plot) -> Drawn {
         draw_ideal(&mut chart)?;
     }
     for (i, series) in drawing.series.iter().enumerate() {
-        draw_series(&mut chart, series, i)?;
+        draw_series(&mut chart, series, colour(i))?;
     }
     draw_names(area, &chart, drawing)?;
     draw_key(area, &chart, drawing, ideal)
@@ -91,8 +110,8 @@ fn x_scale(drawing: &Drawing, plot: &Plot) -> Scale {
     let values = drawing.points().map(|(x, _)| x);
     match plot.log_x {
         _ if !drawing.categories.is_empty() => Scale::names(&drawing.categories),
-        true => Scale::logarithmic(values),
-        false => Scale::linear(values),
+        true => Scale::logarithmic(values.clone()).ticked_at(values),
+        false => Scale::linear(values.clone()).ticked_at(values),
     }
 }
 
@@ -105,20 +124,19 @@ fn y_scale(drawing: &Drawing, plot: &Plot) -> Scale {
 fn draw_ideal(chart: &mut Chart) -> Drawn {
     let (x, y) = (chart.x_range(), chart.y_range());
     let (from, to) = (x.start.max(y.start), x.end.min(y.end));
-    chart.draw_series(LineSeries::new([(from, from), (to, to)], PALE.stroke_width(1)))?;
+    chart.draw_series(LineSeries::new([(from, from), (to, to)], line(PALE, 1)))?;
     Ok(())
 }
 
-fn draw_series(chart: &mut Chart, series: &Series, index: usize) -> Drawn {
-    let colour = colour(index);
+fn draw_series(chart: &mut Chart, series: &Series, colour: RGBColor) -> Drawn {
     let paper = series.paper.iter().copied();
-    let dashes = DashedLineSeries::new(paper.clone(), 6, 4, colour.mix(0.75).stroke_width(1));
+    let dashes = DashedLineSeries::new(paper.clone(), px(6), px(4), line(colour, 1));
     chart.draw_series(dashes)?;
-    let lines = series.simulated.iter().copied();
-    chart.draw_series(LineSeries::new(lines.clone(), colour.stroke_width(2)))?;
-    chart.draw_series(paper.map(|at| Circle::new(at, 4, WHITE.filled())))?;
-    chart.draw_series(series.paper.iter().map(|&at| Circle::new(at, 4, colour.stroke_width(1))))?;
-    chart.draw_series(lines.map(|at| Circle::new(at, 4, colour.filled())))?;
+    let simulated = series.simulated.iter().copied();
+    chart.draw_series(LineSeries::new(simulated.clone(), line(colour, 2)))?;
+    chart.draw_series(paper.clone().map(|at| Circle::new(at, px(4), WHITE.filled())))?;
+    chart.draw_series(paper.map(|at| Circle::new(at, px(4), line(colour, 1))))?;
+    chart.draw_series(simulated.map(|at| Circle::new(at, px(4), colour.filled())))?;
     Ok(())
 }
 
@@ -132,15 +150,14 @@ fn draw_names(area: &Area, chart: &Chart, drawing: &Drawing) -> Drawn {
         })
         .collect();
     ends.sort_unstable();
-    let left = (SIZE.0 - NAMES) as i32 + 12;
-    let bottom = SIZE.1 as i32 - 62 - NAME_HEIGHT * (ends.len() as i32 - 1);
-    let mut lowest = i32::MIN;
-    for (rank, (y, i)) in ends.into_iter().enumerate() {
-        let y = y.max(lowest).min(bottom + NAME_HEIGHT * rank as i32);
-        lowest = y + NAME_HEIGHT;
-        let colour = colour(i);
-        let style = font(15).color(&colour).pos(Pos::new(HPos::Left, VPos::Center));
-        area.draw(&Text::new(drawing.series[i].name.clone(), (left, y), style))?;
+    let last = ends.len().saturating_sub(1) as i32;
+    let bottom = px(SIZE.1 - 62) - NAME_HEIGHT * last;
+    let mut free = i32::MIN;
+    for (rank, (y, i)) in (0..).zip(ends) {
+        let y = y.max(free).min(bottom + NAME_HEIGHT * rank);
+        free = y + NAME_HEIGHT;
+        let name = drawing.series[i].name.clone();
+        area.draw(&Text::new(name, (px(SIZE.0 - NAMES + 12), y), beside(15, colour(i))))?;
     }
     Ok(())
 }
@@ -148,25 +165,25 @@ fn draw_names(area: &Area, chart: &Chart, drawing: &Drawing) -> Drawn {
 /// What solid and dashed lines mean.
 fn draw_key(area: &Area, chart: &Chart, drawing: &Drawing, ideal: bool) -> Drawn {
     let (xs, ys) = chart.plotting_area().get_pixel_range();
-    let (x, mut y) = (xs.start + 18, ys.start + 16);
-    let style = || font(14).color(&INK).pos(Pos::new(HPos::Left, VPos::Center));
+    let (x, mut y) = (xs.start + px(18), ys.start + px(16));
+    let across = |from: u32, to: u32, y| [(x + px(from), y), (x + px(to), y)];
+    let name = |name, y| Text::new(name, (x + px(46), y), beside(14, INK));
     if drawing.series.iter().any(|series| !series.paper.is_empty()) {
-        area.draw(&PathElement::new([(x, y), (x + 36, y)], GREY.stroke_width(2)))?;
-        area.draw(&Circle::new((x + 18, y), 4, GREY.filled()))?;
-        area.draw(&Text::new("simulated", (x + 46, y), style()))?;
-        y += 21;
+        area.draw(&PathElement::new(across(0, 36, y), line(GREY, 2)))?;
+        area.draw(&Circle::new((x + px(18), y), px(4), GREY.filled()))?;
+        area.draw(&name("simulated", y))?;
+        y += px(21);
         for dash in [0, 10, 20, 30] {
-            let ends = [(x + dash, y), (x + dash + 6, y)];
-            area.draw(&PathElement::new(ends, GREY.stroke_width(1)))?;
+            area.draw(&PathElement::new(across(dash, dash + 6, y), line(GREY, 1)))?;
         }
-        area.draw(&Circle::new((x + 18, y), 4, WHITE.filled()))?;
-        area.draw(&Circle::new((x + 18, y), 4, GREY.stroke_width(1)))?;
-        area.draw(&Text::new("paper", (x + 46, y), style()))?;
-        y += 21;
+        area.draw(&Circle::new((x + px(18), y), px(4), WHITE.filled()))?;
+        area.draw(&Circle::new((x + px(18), y), px(4), line(GREY, 1)))?;
+        area.draw(&name("paper", y))?;
+        y += px(21);
     }
     if ideal {
-        area.draw(&PathElement::new([(x, y), (x + 36, y)], PALE.stroke_width(1)))?;
-        area.draw(&Text::new("ideal", (x + 46, y), style()))?;
+        area.draw(&PathElement::new(across(0, 36, y), line(PALE, 1)))?;
+        area.draw(&name("ideal", y))?;
     }
     Ok(())
 }
@@ -176,8 +193,17 @@ fn colour(index: usize) -> RGBColor {
     COLOURS[index % COLOURS.len()]
 }
 
-fn font(size: u32) -> TextStyle<'static> {
-    ("sans-serif", size).into_font().into()
+fn line(colour: RGBColor, pixels: u32) -> ShapeStyle {
+    colour.stroke_width(pixels * FINE)
+}
+
+fn font(pixels: u32, colour: RGBColor) -> TextStyle<'static> {
+    ("sans-serif", px(pixels)).into_font().color(&colour)
+}
+
+/// Text that begins right of its point.
+fn beside(pixels: u32, colour: RGBColor) -> TextStyle<'static> {
+    font(pixels, colour).pos(Pos::new(HPos::Left, VPos::Center))
 }
 
 /// A column's name for people.
@@ -188,7 +214,8 @@ fn label(column: &str) -> String {
         other => {
             let words = other.replace(['_', '.'], " ");
             let mut letters = words.chars();
-            letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+            let first = letters.next().into_iter().flat_map(char::to_uppercase);
+            first.chain(letters).collect()
         }
     }
 }

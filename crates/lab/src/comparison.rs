@@ -27,55 +27,59 @@ impl Comparison {
     /// # Errors
     /// If it cannot be read, a column is missing, or a cell is no number.
     pub fn read(path: &Path) -> Result<Comparison, Fault> {
-        let file = &path.display();
-        let refuse = |line, message| {
-            Err(Fault { file: file.to_string(), line, place: Default::default(), message })
-        };
+        let file = path.display().to_string();
         let text = std::fs::read(path)
-            .map_err(|error| Fault::of_file(file, format!("cannot be read: {error}")))?;
-        let mut reader = csv::Reader::from_reader(text.as_slice());
-        let header = match reader.headers() {
-            Ok(header) => header.clone(),
-            Err(error) => return refuse(None, error.to_string()),
-        };
-        let mut columns = [0; 4];
-        for (column, name) in columns.iter_mut().zip(COLUMNS) {
-            match header.iter().position(|cell| cell == name) {
-                Some(found) => *column = found,
-                None => return refuse(Some(1), format!("no column \"{name}\"; expected {COLUMNS:?}")),
-            }
-        }
-        let mut published = BTreeMap::new();
-        for record in reader.records() {
-            let record = match record {
-                Ok(record) => record,
-                Err(error) => return refuse(None, error.to_string()),
-            };
-            let line = record.position().map(|position| position.line() as usize);
-            let [scene, processors, time_s, speed_up] =
-                columns.map(|column| record.get(column).unwrap_or_default().trim());
-            let Ok(processors) = processors.parse() else {
-                let message = format!("processors \"{processors}\"; expected a whole number");
-                return refuse(line, message);
-            };
-            for (name, cell) in [("time_s", time_s), ("speed_up", speed_up)] {
-                let number = cell.parse().is_ok_and(|n: f64| n.is_finite() && n > 0.0);
-                if !cell.is_empty() && !number {
-                    let message = format!("{name} \"{cell}\"; expected a number above 0, or nothing");
-                    return refuse(line, message);
-                }
-            }
-            let cells = Published { time_s: time_s.to_owned(), speed_up: speed_up.to_owned() };
-            if published.insert((scene.to_owned(), processors), cells).is_some() {
-                let message = format!("{scene} on {processors} processors a second time");
-                return refuse(line, message);
-            }
-        }
-        Ok(Comparison(published))
+            .map_err(|error| Fault::of_file(&file, format!("cannot be read: {error}")))?;
+        parse(&text).map_err(|(line, message)| {
+            let line = line.map(|line| line as usize);
+            Fault { line, ..Fault::of_file(&file, message) }
+        })
     }
 
     /// What was published for a scene and a number of processors.
     pub fn of(&self, scene: &str, processors: u32) -> Published {
         self.0.get(&(scene.to_owned(), processors)).cloned().unwrap_or_default()
     }
+}
+
+/// A line, from 1, where one is known, and what is wrong there.
+type Wrong = (Option<u64>, String);
+
+fn parse(text: &[u8]) -> Result<Comparison, Wrong> {
+    let damaged = |error: csv::Error| (error.position().map(|p| p.line()), error.to_string());
+    let mut reader = csv::Reader::from_reader(text);
+    let columns = find_columns(reader.headers().map_err(damaged)?)?;
+    let mut published = BTreeMap::new();
+    for record in reader.records() {
+        let record = record.map_err(damaged)?;
+        let refuse = |message| Err((record.position().map(|p| p.line()), message));
+        let [scene, processors, time_s, speed_up] =
+            columns.map(|column| record.get(column).unwrap_or_default().trim());
+        let Ok(processors) = processors.parse() else {
+            return refuse(format!("processors \"{processors}\"; expected a whole number"));
+        };
+        for (name, cell) in [("time_s", time_s), ("speed_up", speed_up)] {
+            let number = cell.parse().is_ok_and(|n: f64| n.is_finite() && n > 0.0);
+            if !cell.is_empty() && !number {
+                return refuse(format!("{name} \"{cell}\"; expected a number above 0, or nothing"));
+            }
+        }
+        let cells = Published { time_s: time_s.to_owned(), speed_up: speed_up.to_owned() };
+        if published.insert((scene.to_owned(), processors), cells).is_some() {
+            return refuse(format!("{scene} on {processors} processors; expected each once"));
+        }
+    }
+    Ok(Comparison(published))
+}
+
+/// Where the columns stand.
+fn find_columns(header: &csv::StringRecord) -> Result<[usize; 4], Wrong> {
+    let mut found = [0; 4];
+    for (found, name) in found.iter_mut().zip(COLUMNS) {
+        *found = header.iter().position(|cell| cell == name).ok_or_else(|| {
+            let expected = COLUMNS.join(", ");
+            (Some(1), format!("no column \"{name}\"; expected {expected}"))
+        })?;
+    }
+    Ok(found)
 }

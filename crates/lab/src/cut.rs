@@ -32,7 +32,9 @@ pub fn automatic_cut(
     cells: Option<Triple>,
 ) -> Option<Triple> {
     let fits = |cut: &[u32; 3]| cells.is_none_or(|cells| (0..3).all(|a| cut[a] <= cells.0[a]));
-    let even = |cut: &[u32; 3]| cells.is_none_or(|cells| (0..3).all(|a| cells.0[a] % cut[a] == 0));
+    let even = |cut: &[u32; 3]| {
+        cells.is_none_or(|cells| (0..3).all(|a| cells.0[a].is_multiple_of(cut[a])))
+    };
     let surface = |cut: &[u32; 3]| {
         let [x, y, z] = [0, 1, 2].map(|axis| extents[axis] / f64::from(cut[axis]));
         x * y + y * z + z * x
@@ -45,7 +47,7 @@ pub fn automatic_cut(
 
 /// All ways to write `n` as a product of three, in the order of the first two.
 fn factorisations(n: u32) -> impl Iterator<Item = [u32; 3]> {
-    let divisors = |n: u32| (1..=n).filter(move |d| n % d == 0);
+    let divisors = |n: u32| (1..=n).filter(move |d| n.is_multiple_of(*d));
     divisors(n).flat_map(move |x| divisors(n / x).map(move |y| [x, y, n / x / y]))
 }
 
@@ -74,7 +76,10 @@ mod tests {
     #[test]
     fn cells_are_near_to_cubes_and_divide_by_the_cut() {
         assert_eq!(automatic_cells([8.0, 4.0, 2.0], 64, None), Triple([8, 4, 2]));
-        assert_eq!(automatic_cells([8.0, 4.0, 2.0], 64, Some(Triple([3, 1, 1]))), Triple([9, 4, 2]));
+        assert_eq!(
+            automatic_cells([8.0, 4.0, 2.0], 64, Some(Triple([3, 1, 1]))),
+            Triple([9, 4, 2])
+        );
         assert_eq!(automatic_cells([4.0, 4.0, 0.0], 16, None), Triple([4, 4, 1]));
         assert_eq!(automatic_cells([1e9, 1e-9, 1.0], 1000, None).0[0], MOST_CELLS);
     }

@@ -40,7 +40,10 @@ impl Document {
     /// If the text is no JSON, or names a key of an object twice.
     pub fn parse(file: String, text: String) -> Result<Document, Fault> {
         match json::parse(&text) {
-            Ok(value) => Ok(Document { file, value, text, arguments: Vec::new() }),
+            Ok(value @ Value::Object(_)) => {
+                Ok(Document { file, value, text, arguments: Vec::new() })
+            }
+            Ok(other) => Err(Fault::of_file(file, format!("found {other}; expected an object"))),
             Err(error) => Err(Fault {
                 file,
                 line: Some(error.line()),

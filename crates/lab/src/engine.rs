@@ -36,6 +36,11 @@ impl Scene {
         self.scene.bounds.size().to_array()
     }
 
+    /// Sum of areas, m².
+    pub fn area(&self) -> f64 {
+        self.scene.area()
+    }
+
     /// Polygons after cleaning.
     pub fn polygons(&self) -> usize {
         self.scene.polygons.len()

@@ -26,9 +26,11 @@ pub struct Experiment {
     #[serde(default = "default_machine")]
     pub machine: String,
     /// Compute nodes used, at most as many as there are local environments. Paper: Table 1.
+    #[schemars(range(min = 1))]
     pub processors: u32,
     /// Local environments that the scene is cut into. Paper: 56 (§5.3).
     #[serde(default = "default_local_environments")]
+    #[schemars(range(min = 1))]
     pub local_environments: u32,
     /// Local environments along x, y and z, such as "14x4x1"; they make "local_environments" in
     /// all. Default: the scene file's cut for that number, else the one whose environments are
@@ -125,6 +127,7 @@ pub struct Hemisphere {
     /// Pixels, that is rays a source and bits a mask. Choice C1: unpublished; a 4 KB message
     /// (§4.2.3) leaves room for some 32,000, and 30,976 = 176² bits leave 224 bytes for geometry
     /// and photometry.
+    #[schemars(range(min = 1))]
     pub pixels: u32,
     /// Whether the directions are turned about the normal by an angle of each source's own, so
     /// that no ray runs along a plane by habit.

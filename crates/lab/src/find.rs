@@ -51,7 +51,10 @@ pub fn find(folder: &Path, shelf: Shelf, name: &str) -> Result<Found, String> {
             .into_iter()
             .find(|path| path.is_file())
             .map(|path| Found { path, label: name.to_owned() })
-            .ok_or_else(|| format!("\"{name}\": no such file; expected a path from {}", folder.display()));
+            .ok_or_else(|| {
+                let from = if folder == Path::new("") { Path::new(".") } else { folder };
+                format!("\"{name}\": no such file; expected a path from {}", from.display())
+            });
     }
     let shelves = [beside(folder).join(shelf.folder()), PathBuf::from(shelf.folder())];
     let file = format!("{name}.json");

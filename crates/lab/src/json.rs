@@ -134,7 +134,10 @@ mod tests {
     #[test]
     fn a_key_twice_is_refused_with_its_line() {
         let fault = parse("{\n \"a\": 1,\n \"b\": {\"c\": 1, \"c\": 2}\n}").unwrap_err();
-        assert!(fault.to_string().starts_with("the key \"c\" stands here twice at line 3"), "{fault}");
+        assert!(
+            fault.to_string().starts_with("the key \"c\" stands here twice at line 3"),
+            "{fault}"
+        );
     }
 
     #[test]

@@ -17,7 +17,10 @@ use crate::name::{PLAIN, is_plain};
 use crate::place::Place;
 use crate::plan::{Equipment, Plan, Prepared, Run};
 use crate::problem::{Scene, Settings};
-use crate::sweep::{Point, Sweep, put};
+use crate::sweep::{Point, Sweep};
+
+/// More local environments can only be a slip.
+const MOST_ENVIRONMENTS: u32 = 65_536;
 
 /// What planning has read so far.
 pub struct Planner<'a> {
@@ -60,7 +63,8 @@ impl<'a> Planner<'a> {
         self.check_plots(&plots)?;
         let (comparison, compared) = self.comparison(first)?;
 
-        let mut files: Vec<FileDigest> = self.scenes.values().flat_map(|s| s.digests.clone()).collect();
+        let mut files: Vec<FileDigest> =
+            self.scenes.values().flat_map(|s| s.digests.clone()).collect();
         files.extend(self.machines.iter().map(|machine| machine.digest.clone()));
         files.extend(compared);
         files.sort();
@@ -99,8 +103,9 @@ impl<'a> Planner<'a> {
             Err(self.document.fault(&locate(Place::of(field)), message))
         };
         let (processors, environments) = (typed.processors, typed.local_environments);
-        if environments == 0 {
-            return refuse("local_environments", "0; expected 1 or more".to_owned());
+        if !(1..=MOST_ENVIRONMENTS).contains(&environments) {
+            let message = format!("{environments}; expected 1 to {MOST_ENVIRONMENTS}");
+            return refuse("local_environments", message);
         }
         if processors == 0 {
             return refuse("processors", "0; expected 1 or more".to_owned());
@@ -109,7 +114,8 @@ impl<'a> Planner<'a> {
             let message = format!("{processors} processors for {environments} local environments");
             return refuse("processors", message + "; expected at most one for each");
         }
-        let machine = self.machine(&typed.machine).or_else(|error| error.at(self, point, "machine"))?;
+        let machine =
+            self.machine(&typed.machine).or_else(|error| error.at(self, point, "machine"))?;
         let nodes = self.machines[machine].machine.compute_nodes();
         if processors as usize > nodes {
             let message = format!("{processors} processors, but \"{}\" has {nodes}", typed.machine);
@@ -154,10 +160,8 @@ impl<'a> Planner<'a> {
 
     /// The experiment file with every default filled in: a file that says the same.
     fn resolved(&self, first: &Experiment) -> Value {
-        let mut resolved = serde_json::to_value(first).unwrap_or_default();
-        for axis in &self.sweep.axes {
-            put(&mut resolved, &axis.place, &Value::Array(axis.values.clone()));
-        }
+        let mut resolved = self.document.value.clone();
+        fill(&mut resolved, serde_json::to_value(first).unwrap_or_default());
         resolved
     }
 
@@ -167,7 +171,8 @@ impl<'a> Planner<'a> {
         for (i, plot) in plots.iter().enumerate() {
             let place = Place::of("plots").item(i);
             let series = plot.series.as_ref();
-            for (field, column) in [("x", Some(&plot.x)), ("y", Some(&plot.y)), ("series", series)] {
+            for (field, column) in [("x", Some(&plot.x)), ("y", Some(&plot.y)), ("series", series)]
+            {
                 if let Some(column) = column
                     && !known.contains(column)
                 {
@@ -181,7 +186,9 @@ impl<'a> Planner<'a> {
                 return Err(self.document.fault(&place.key("file"), message));
             }
             if plots[..i].iter().any(|earlier| earlier.stem() == stem) {
-                let message = format!("\"{stem}.svg\" is an earlier plot too; expected a \"file\" of its own");
+                let message = format!(
+                    "\"{stem}.svg\" is an earlier plot too; expected a \"file\" of its own"
+                );
                 return Err(self.document.fault(&place, message));
             }
         }
@@ -199,6 +206,17 @@ impl<'a> Planner<'a> {
             return Err(self.document.fault(&Place::of("compare_with"), message));
         }
         Ok((Comparison::read(&path)?, Some(FileDigest::of(&path, name)?)))
+    }
+}
+
+/// Gives a value the fields that it lacks, after its own.
+fn fill(value: &mut Value, defaults: Value) {
+    let (Value::Object(fields), Value::Object(defaults)) = (value, defaults) else { return };
+    for (name, default) in defaults {
+        match fields.get_mut(&name) {
+            Some(field) => fill(field, default),
+            None => _ = fields.insert(name, default),
+        }
     }
 }
 

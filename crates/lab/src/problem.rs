@@ -17,6 +17,9 @@ use crate::scene_file::SceneFile;
 /// A patch of a bare OBJ file is at most this share of the scene's diagonal long.
 const BARE_PATCHES: f64 = 1.0 / 50.0;
 
+/// More patches than a host's memory holds with ease.
+const MOST_PATCHES: f64 = 2e7;
+
 /// A scene with its description, if it has one.
 pub struct Scene {
     /// Its description; none for a bare OBJ file.
@@ -113,6 +116,11 @@ impl Settings {
         let patch_size = own.map_or(diagonal * BARE_PATCHES, |size| size.value());
         let of_file = file.and_then(|file| file.emitter_patch_size.as_ref());
         let emitters = point.emitter_patch_size.as_ref().or(of_file);
+        let patches = scene.geometry.area() / (patch_size * patch_size);
+        if patches > MOST_PATCHES {
+            let message = format!("{patch_size} m makes some {patches:.0} patches");
+            return Err(("patch_size", format!("{message}; expected at most {MOST_PATCHES}")));
+        }
         Ok(Settings {
             scene: point.scene.clone(),
             cut,

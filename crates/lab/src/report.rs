@@ -5,6 +5,7 @@ use std::fmt::Write;
 use serde_json::Value;
 
 use crate::columns;
+use crate::console::lines;
 use crate::results::Results;
 use crate::schema::experiment_schema;
 use crate::summary::Summary;
@@ -24,13 +25,22 @@ pub fn html(results: &Results, drawings: &[String]) -> String {
     add(warnings(results));
     drawings.iter().for_each(|svg| add(format!("<figure>{svg}</figure>\n")));
     add("<h2>Runs</h2>\n".to_owned());
-    add(table(&shown_columns(results), &results.table));
-    add("<h2>Choices</h2>\n<p>What the paper leaves open, and what this experiment takes.</p>\n".to_owned());
+    if !Summary::of(&results.table).lines().is_empty() {
+        add("<p>Ratios are simulated over paper: of speed-ups, and of times (t) on one processor.\
+             </p>\n"
+            .to_owned());
+    }
+    add(runs(results));
+    let all = table(&shown_columns(results), &results.table);
+    add(format!("<details><summary>All columns</summary>\n{all}</details>\n"));
+    add("<h2>Choices</h2>\n<p>What the paper leaves open, and what this experiment takes.</p>\n"
+        .to_owned());
     add(choices(manifest));
     add("<h2>Scenes</h2>\n".to_owned());
     add(problems(manifest));
     add("<h2>Configuration</h2>\n<p>Every field, defaults filled in. It is an experiment file \
-         that gives these results again.</p>\n".to_owned());
+         that gives these results again.</p>\n"
+        .to_owned());
     let experiment = serde_json::to_string_pretty(&manifest["experiment"]).unwrap_or_default();
     add(format!("<pre>{}</pre>\n", escape(&experiment)));
     add("<h2>Files</h2>\n".to_owned());
@@ -83,6 +93,30 @@ fn warnings(results: &Results) -> String {
     format!("<h2>Warnings</h2>\n<ul class=\"warnings\">\n{items}</ul>\n")
 }
 
+/// The runs in the manner of Table 1, a body of rows for each scene.
+fn runs(results: &Results) -> String {
+    let lines = lines(&results.table, &results.sweeps());
+    let mut rows = String::new();
+    let mut group = None;
+    for line in &lines {
+        if group != Some(&line.group) {
+            let name = escape(&line.group);
+            rows += &format!("<tr class=\"group\"><th colspan=\"7\">{name}</th></tr>\n");
+            group = Some(&line.group);
+        }
+        let cells = [&line.processors].into_iter().chain(&line.simulated).chain(&line.paper);
+        let cells = cells.chain([&line.ratio, &line.note]);
+        let cells: String = cells.map(|cell| format!("<td>{}</td>", escape(cell))).collect();
+        rows += &format!("<tr>{cells}</tr>\n");
+    }
+    format!(
+        "<div class=\"wide\"><table>\n<thead>\n\
+         <tr><th></th><th colspan=\"2\">simulated</th><th colspan=\"2\">paper</th><th></th><th></th></tr>\n\
+         <tr><th>processors</th><th>time s</th><th>speed-up</th><th>time s</th><th>speed-up</th>\
+         <th>ratio</th><th></th></tr>\n</thead>\n<tbody>\n{rows}</tbody>\n</table></div>\n"
+    )
+}
+
 /// The columns of runs.csv that hold something, but for those too long for a page.
 fn shown_columns(results: &Results) -> Vec<&str> {
     let table = &results.table;
@@ -112,14 +146,18 @@ fn choices(manifest: &Value) -> String {
     rows.sort();
     let rows = rows.into_iter().map(|(number, field, value, about)| {
         format!(
-            "<tr><td>C{number}</td><td><code>{}</code></td><td>{}</td><td class=\"text\">{}</td></tr>\n",
+            "<tr><td>C{number}</td><td class=\"text\"><code>{}</code></td><td class=\"text\">{}</td>\
+             <td class=\"text about\">{}</td></tr>\n",
             escape(&field),
             escape(&value),
             escape(&about)
         )
     });
-    let head = "<thead><tr><th></th><th>field</th><th>here</th><th></th></tr></thead>";
-    format!("<div class=\"wide\"><table>{head}<tbody>\n{}</tbody></table></div>\n", rows.collect::<String>())
+    let head = "<thead><tr><th></th><th class=\"text\">field</th><th class=\"text\">here</th><th></th></tr></thead>";
+    format!(
+        "<div class=\"wide\"><table>{head}<tbody>\n{}</tbody></table></div>\n",
+        rows.collect::<String>()
+    )
 }
 
 type ChoiceRow = (u32, String, String, String);

@@ -55,7 +55,8 @@ impl Results {
         let bytes = fs::read(&csv)
             .map_err(|error| Fault::of_file(csv.display(), format!("cannot be read: {error}")))?;
         if document.value["runs_csv_sha256"] != Value::String(sha256(&bytes)) {
-            let message = "does not have the digest that manifest.json states; expected it unchanged";
+            let message =
+                "does not have the digest that manifest.json states; expected it unchanged";
             return Err(Fault::of_file(csv.display(), message));
         }
         let plots = &document.value["experiment"]["plots"];

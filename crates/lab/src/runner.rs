@@ -73,12 +73,7 @@ pub struct Endings {
 ///
 /// # Errors
 /// If a finished run cannot be saved. A run that fails is no error here: it ends so.
-pub fn carry_out(
-    plan: &Plan,
-    out: &Path,
-    options: Options,
-    watch: Watch,
-) -> io::Result<Endings> {
+pub fn carry_out(plan: &Plan, out: &Path, options: Options, watch: Watch) -> io::Result<Endings> {
     let saved = Saved::in_folder(out);
     if options.fresh {
         saved.forget()?;

@@ -6,6 +6,10 @@ use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, Value
 
 /// About how many ticks an axis has.
 const TICKS: f64 = 7.0;
+/// So many values may each have a tick.
+const FEW: usize = 12;
+/// Least share of the axis between two such ticks.
+const ROOM: f64 = 0.04;
 
 /// An axis: where values lie on it, and its ticks.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,7 +35,8 @@ impl Scale {
 
     /// A logarithmic axis around positive values.
     pub fn logarithmic(values: impl Iterator<Item = f64>) -> Scale {
-        let (low, high) = values.fold((f64::MAX, 0.0), |(l, h): (f64, f64), v| (l.min(v), h.max(v)));
+        let (low, high) =
+            values.fold((f64::MAX, 0.0), |(l, h): (f64, f64), v| (l.min(v), h.max(v)));
         let (low, high) = if low <= high { (low / 1.1, high * 1.1) } else { (1.0, 10.0) };
         let decades = (low.log10().floor() as i32)..=(high.log10().ceil() as i32);
         let digits: &[f64] = if (high / low).log10() < 3.5 { &[1.0, 2.0, 5.0] } else { &[1.0] };
@@ -40,6 +45,25 @@ impl Scale {
             .filter(|tick| (low..=high).contains(tick))
             .collect();
         Scale { low, high, logarithmic: true, ticks, names: Vec::new() }
+    }
+
+    /// The axis with its ticks at the values themselves, where they are few: as many as have room,
+    /// the greatest first.
+    pub fn ticked_at(mut self, values: impl Iterator<Item = f64>) -> Scale {
+        let mut values: Vec<f64> = values.collect();
+        values.sort_by(|a, b| b.total_cmp(a));
+        values.dedup();
+        if values.is_empty() || values.len() > FEW {
+            return self;
+        }
+        self.ticks.clear();
+        for value in values {
+            let room = |tick: &f64| (self.share(*tick) - self.share(value)).abs() >= ROOM;
+            if self.ticks.last().is_none_or(room) {
+                self.ticks.push(value);
+            }
+        }
+        self
     }
 
     /// Names at 0, 1, 2, ...
@@ -89,7 +113,11 @@ impl ValueFormatter<f64> for Scale {
 /// 1, 2 or 5 times a power of ten, not much below `step`.
 fn nice_step(step: f64) -> f64 {
     let power = 10_f64.powf(step.log10().floor());
-    [1.0, 2.0, 5.0, 10.0].map(|digit| digit * power).into_iter().find(|nice| *nice >= step).unwrap_or(step)
+    [1.0, 2.0, 5.0, 10.0]
+        .map(|digit| digit * power)
+        .into_iter()
+        .find(|nice| *nice >= step)
+        .unwrap_or(step)
 }
 
 fn tick_text(value: f64) -> String {
@@ -112,6 +140,15 @@ mod tests {
         let axis = Scale::logarithmic([1.0, 56.0].into_iter());
         assert_eq!(axis.ticks, [1.0, 2.0, 5.0, 10.0, 20.0, 50.0]);
         assert_eq!(tick_text(3.0 * 0.1), "0.3");
+    }
+
+    #[test]
+    fn few_values_are_ticks_themselves_where_there_is_room() {
+        let processors = || [1.0, 2.0, 4.0, 7.0, 8.0, 14.0, 28.0, 56.0].into_iter();
+        let axis = Scale::linear(processors()).ticked_at(processors());
+        assert_eq!(axis.ticks, [56.0, 28.0, 14.0, 8.0, 4.0, 1.0]);
+        let axis = Scale::logarithmic(processors()).ticked_at(processors());
+        assert_eq!(axis.ticks, [56.0, 28.0, 14.0, 8.0, 4.0, 2.0, 1.0]);
     }
 
     #[test]

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
 
 use crate::document::Document;
 use crate::fault::Fault;
@@ -38,7 +37,7 @@ pub struct SceneFile {
     pub cuts: BTreeMap<String, Triple>,
     /// Where the scene comes from.
     #[serde(default)]
-    pub source: Option<Value>,
+    pub source: Option<String>,
 }
 
 impl SceneFile {

@@ -65,7 +65,8 @@ impl Drawing {
 /// The name of a row's line: its series, and what is swept besides.
 fn name(table: &Table, row: &[String], sweeps: &[String], plot: &Plot) -> String {
     let series = plot.series.iter();
-    let others = sweeps.iter().filter(|name| **name != plot.x && Some(*name) != plot.series.as_ref());
+    let others =
+        sweeps.iter().filter(|name| **name != plot.x && Some(*name) != plot.series.as_ref());
     let cells = series.chain(others).map(|name| match table.cell(row, name) {
         "" => format!("{name} default"),
         // A bare number says nothing without its field.

@@ -47,13 +47,15 @@ impl Summary {
     pub fn lines(&self) -> Vec<String> {
         let mut lines = Vec::new();
         if !self.one_processor.is_empty() {
-            let ratios = self.one_processor.iter().map(|(scene, ratio)| format!("{scene} {ratio:.3}"));
+            let ratios =
+                self.one_processor.iter().map(|(scene, ratio)| format!("{scene} {ratio:.3}"));
             let ratios = ratios.collect::<Vec<_>>().join(", ");
             lines.push(format!("Time on one processor, simulated over paper: {ratios}."));
         }
         if let Some(Spread { cells, mean, worst, worst_at }) = &self.speed_ups {
+            let plural = if *cells == 1 { "" } else { "s" };
             lines.push(format!(
-                "{cells} speed-ups on more than one processor: the geometric mean of \
+                "{cells} speed-up{plural} on more than one processor: the geometric mean of \
                  max(simulated/paper, paper/simulated) is {mean:.3}; the farthest is {worst_at}, {worst:.2} \
                  times the paper's."
             ));
@@ -82,7 +84,8 @@ mod tests {
     use super::*;
 
     fn table(rows: &[[&str; 6]]) -> Table {
-        let columns = ["scene", "processors", "time_s", "speed_up", "paper_time_s", "paper_speed_up"];
+        let columns =
+            ["scene", "processors", "time_s", "speed_up", "paper_time_s", "paper_speed_up"];
         let own = |row: &[&str; 6]| row.map(str::to_owned).to_vec();
         Table { columns: own(&columns), rows: rows.iter().map(own).collect() }
     }

@@ -120,7 +120,7 @@ fn point(file: &Value, axes: &[Axis], run: usize) -> Point {
 }
 
 /// Puts `item` where a list stands.
-pub fn put(value: &mut Value, place: &Place, item: &Value) {
+fn put(value: &mut Value, place: &Place, item: &Value) {
     let target = place.0.iter().fold(value, |value, step| match step {
         Step::Key(key) => &mut value[key.as_str()],
         Step::Item(index) => &mut value[*index],
@@ -165,7 +165,10 @@ mod tests {
                 "{\n\"a\": {\"b\": [1,\n 2, 1]}}",
                 "x.json:3: a.b[2]: 1 stands in the list twice; expected each value once",
             ),
-            (r#"{"a": [[1]]}"#, "x.json:1: a[0]: [1] inside a list; expected a single value to sweep"),
+            (
+                r#"{"a": [[1]]}"#,
+                "x.json:1: a[0]: [1] inside a list; expected a single value to sweep",
+            ),
         ] {
             assert_eq!(sweep(text).unwrap_err(), message);
         }

@@ -1,9 +1,11 @@
 //! The results of an experiment as rows of text: what runs.csv holds, and all that is drawn from.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::columns;
 use crate::fault::Fault;
+use crate::place::Place;
 use crate::plan::{Plan, Run};
 use crate::runner::{Ending, Endings};
 
@@ -20,8 +22,9 @@ impl Table {
     /// The results of a plan's runs, in the plan's order.
     pub fn of(plan: &Plan, endings: &Endings) -> Table {
         let columns = columns::names(&plan.axes);
+        let one_processor = one_processor(plan, endings);
         let row = |(run, ending): (&Run, &Option<Ending>)| {
-            let view = View { plan, endings, run, ending: ending.as_ref() };
+            let view = View { plan, run, ending: ending.as_ref(), one_processor: &one_processor };
             columns.iter().map(|column| view.cell(column)).collect()
         };
         let rows = plan.runs.iter().zip(&endings.runs).map(row).collect();
@@ -74,9 +77,9 @@ impl Table {
 /// One run among the others.
 struct View<'a> {
     plan: &'a Plan,
-    endings: &'a Endings,
     run: &'a Run,
     ending: Option<&'a Ending>,
+    one_processor: &'a OneProcessor,
 }
 
 impl View<'_> {
@@ -117,16 +120,25 @@ impl View<'_> {
 
     /// Time on one processor, all else equal, over this run's time.
     fn speed_up(&self) -> Option<f64> {
-        let axes = || self.plan.axes.iter().map(|axis| axis.place.to_string());
-        let all_else_equal = |other: &&(&Run, &Option<Ending>)| {
-            let differs = |i: usize| other.0.index[i] != self.run.index[i];
-            axes().enumerate().all(|(i, name)| name == "processors" || !differs(i))
-                && other.0.point.processors == 1
-        };
-        let runs: Vec<_> = self.plan.runs.iter().zip(&self.endings.runs).collect();
-        let (_, one) = runs.iter().find(all_else_equal)?;
-        let time = |ending: Option<&Ending>| ending?.as_ref().ok()?.time_s;
-        let (one, time) = (time(one.as_ref())?, time(self.ending)?);
+        let one = self.one_processor.get(&all_else(self.plan, self.run))?;
+        let time = self.ending?.as_ref().ok()?.time_s?;
         (time > 0.0).then_some(one / time)
     }
+}
+
+/// Times of the runs on one processor, by all that is swept besides processors.
+type OneProcessor = BTreeMap<Vec<usize>, f64>;
+
+fn one_processor(plan: &Plan, endings: &Endings) -> OneProcessor {
+    let runs = plan.runs.iter().zip(&endings.runs);
+    let runs = runs.filter(|(run, _)| run.point.processors == 1);
+    let time = |ending: &Option<Ending>| ending.as_ref()?.as_ref().ok()?.time_s;
+    runs.filter_map(|(run, ending)| Some((all_else(plan, run), time(ending)?))).collect()
+}
+
+/// Which value a run has of each swept field but processors.
+fn all_else(plan: &Plan, run: &Run) -> Vec<usize> {
+    let processors = Place::of("processors");
+    let fields = plan.axes.iter().zip(&run.index).filter(|(axis, _)| axis.place != processors);
+    fields.map(|(_, &item)| item).collect()
 }

@@ -26,8 +26,10 @@ const DOORWAY: [i32; 2] = [1000, 2100];
 const TABLE: [i32; 2] = [1200, 800];
 /// From the room's centre to a table's, along x and y, mm.
 const TABLE_OFFSET: [i32; 2] = [1250, 1250];
-/// Size of the light, mm: eight patches of 0.3 m.
-const PANEL: [i32; 2] = [1200, 600];
+/// From the room's centre to each of the light's three tubes along y, mm.
+const TUBES: [i32; 3] = [-200, 0, 200];
+/// Length and width of a tube, mm: four patches of 0.3 m.
+const TUBE: [i32; 2] = [1200, 120];
 /// How far the light hangs below the ceiling, mm.
 const DROP: i32 = 30;
 
@@ -64,8 +66,10 @@ fn room(obj: &mut Obj, column: i32, row: i32) {
         column_table(obj, place, TABLE);
     }
     obj.object(format_args!("light {number}"));
-    let (u, v) = (around(centre[0], PANEL[0]), around(centre[1], PANEL[1]));
-    obj.rect(&LIGHT, Rect { facing: Down, at: HEIGHT - DROP, u, v });
+    for y in TUBES {
+        let (u, v) = (around(centre[0], TUBE[0]), around(centre[1] + y, TUBE[1]));
+        obj.rect(&LIGHT, Rect { facing: Down, at: HEIGHT - DROP, u, v });
+    }
 }
 
 /// Floor, ceiling, and walls with a door in the middle of each.

@@ -1,0 +1,271 @@
+//! The command from outside: what it prints, what it writes, how it exits.
+
+#![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
+
+#[path = "../../lab/tests/common/mod.rs"]
+mod common;
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use std::time::Duration;
+
+use common::{Project, SWEEP};
+
+fn virtwall(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_virtwall"));
+    command.current_dir(folder).args(arguments).stdin(Stdio::null());
+    command
+}
+
+fn output(project: &Project, arguments: &[&str]) -> (i32, String, String) {
+    let Output { status, stdout, stderr } =
+        virtwall(&project.path(""), arguments).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (status.code().unwrap(), text(stdout), text(stderr))
+}
+
+#[test]
+fn a_run_prints_its_table_and_writes_its_results() {
+    let project = Project::new(
+        &SWEEP
+            .replace("[64, 256]", "64")
+            .replace("\"title\"", "\"compare_with\": \"paper.csv\", \"title\""),
+    );
+    project.write(
+        "experiments/paper.csv",
+        "scene,processors,time_s,speed_up\nbox,1,100,1.00\nbox,2,50,2.00\n",
+    );
+    let (code, stdout, stderr) = output(&project, &["run", "experiments/x.json"]);
+    assert_eq!((code, stderr.as_str()), (0, ""), "{stdout}");
+    assert!(stdout.starts_with("test\n"), "{stdout}");
+    assert!(stdout.contains("1 speed-up on more than one processor"), "{stdout}");
+    assert!(stdout.ends_with("Results are in results/x.\n"), "{stdout}");
+
+    let csv = fs::read_to_string(project.path("results/x/runs.csv")).unwrap();
+    assert!(csv.starts_with(
+        "scene,processors,local_environments,seed,time_s,speed_up,paper_time_s,paper_speed_up,\
+         local_shots,received_shots,messages,message_bytes,busy_fraction,energy_error,"
+    ));
+    assert_eq!(csv.lines().count(), 4);
+    assert!(csv.lines().nth(2).unwrap().starts_with("box,2,4,1996,"));
+    let mut names: Vec<_> = fs::read_dir(project.path("results/x"))
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    let expected = [
+        "host-times.json",
+        "manifest.json",
+        "report.html",
+        "runs.csv",
+        "speed_up-by-processors.svg",
+    ];
+    assert_eq!(names, expected);
+}
+
+#[test]
+fn bad_input_exits_with_2_and_leaves_nothing() {
+    let project = Project::new(SWEEP);
+    project.write("scenes/hole.obj", "v 0 0 0\nf 1 2 3\n");
+    project.write("machines/bad.json", "{ \"title\": 7 }");
+    for arguments in [
+        &["run", "experiments/y.json"][..],
+        &["run", "experiments/x.json", "--set", "processors=0"],
+        &["run", "experiments/x.json", "--set", "processors=5"],
+        &["run", "experiments/x.json", "--set", "scene=hole"],
+        &["run", "experiments/x.json", "--set", "scene=../scenes/hole.obj"],
+        &["run", "experiments/x.json", "--set", "machine=bad"],
+        &["run", "experiments/x.json", "--set", "patch_size=1"],
+        &["run", "experiments/x.json", "--set", "patch_size=1e-9 m"],
+        &[
+            "run",
+            "experiments/x.json",
+            "--set",
+            "plots=[{\"x\":\"seed\",\"y\":\"seed\",\"file\":\"../p\"}]",
+        ],
+        &["run", "experiments/x.json", "--threads", "0"],
+        &["run", "experiments/x.json", "--out", "experiments/x.json"],
+        &["run", "experiments"],
+        &["plot", "results/x"],
+        &["check", "experiments/x.json", "scenes/hole.obj"],
+        &["check", "scenes/box.mtl"],
+        &["scene", "show", "attic"],
+        &["scene", "make", "attic"],
+        &["schema", "attic"],
+        &["attic"],
+    ] {
+        let (code, _, stderr) = output(&project, arguments);
+        assert_eq!(code, 2, "{arguments:?}: {stderr}");
+        assert!(stderr.starts_with("error: ") && !stderr.contains("panicked"), "{stderr}");
+        assert!(!project.path("results").exists(), "{arguments:?}");
+    }
+}
+
+#[test]
+fn threads_and_a_second_run_change_no_byte() {
+    let project = Project::new(SWEEP);
+    let results = |out: &str, threads: &str| {
+        let arguments = ["run", "experiments/x.json", "--out", out, "--threads", threads];
+        assert_eq!(output(&project, &arguments).0, 0);
+        ["runs.csv", "manifest.json"].map(|name| fs::read(project.path(out).join(name)).unwrap())
+    };
+    let one = results("a", "1");
+    assert_eq!(one, results("a", "1"));
+    assert_eq!(one, results("b", "2"));
+}
+
+#[test]
+fn a_killed_run_goes_on_where_it_was() {
+    let seeds: Vec<String> = (0..40).map(|seed| seed.to_string()).collect();
+    let sweep = SWEEP.replace("[64, 256]", "4096");
+    let sweep = sweep.replace("\"title\"", &format!("\"seed\": [{}], \"title\"", seeds.join(",")));
+    let project = Project::new(&sweep);
+    let arguments = ["run", "experiments/x.json", "--threads", "1"];
+    let partial = project.path("results/x/.partial");
+    let saved = || fs::read_dir(&partial).map_or(0, |entries| entries.count());
+
+    let mut child = virtwall(&project.path(""), &arguments).stdout(Stdio::null()).spawn().unwrap();
+    while saved() < 3 && child.try_wait().unwrap().is_none() {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    // The sweep was still under way, and no result of it stands there half-written.
+    assert!(saved() >= 3, "it ended too soon to be killed");
+    assert!(!project.path("results/x/runs.csv").exists());
+
+    assert_eq!(output(&project, &arguments).0, 0);
+    assert_eq!(output(&project, &["run", "experiments/x.json", "--out", "whole"]).0, 0);
+    let times = fs::read_to_string(project.path("results/x/host-times.json")).unwrap();
+    assert!(times.contains("null"), "no run was found finished: {times}");
+    for name in ["runs.csv", "manifest.json"] {
+        let read = |out: &str| fs::read(project.path(out).join(name)).unwrap();
+        assert!(read("results/x") == read("whole"), "{name}");
+    }
+}
+
+#[test]
+fn on_threads_the_light_is_the_same_and_no_time_is_virtual() {
+    let stop = r#""stop": { "patch_threshold": "0.1 %" }, "title"#;
+    let project = Project::new(&SWEEP.replace("[64, 256]", "256").replace("\"title", stop));
+    let read = |out: &str, on: &str| {
+        let arguments = ["run", "experiments/x.json", "--out", out, "--on", on];
+        assert_eq!(output(&project, &arguments).0, 0);
+        let csv = fs::read_to_string(project.path(out).join("runs.csv")).unwrap();
+        let mut lines = csv.lines().map(|line| line.split(',').map(str::to_owned).collect());
+        let header: Vec<String> = lines.next().unwrap();
+        let rows: Vec<Vec<String>> = lines.collect();
+        let column = move |name: &str| {
+            let index = header.iter().position(|cell| cell == name).unwrap();
+            rows.iter().map(|row| row[index].clone()).collect::<Vec<_>>()
+        };
+        let numbers = |name| column(name).iter().map(|cell| cell.parse().unwrap()).collect();
+        let light: [Vec<f64>; 4] = ["absorbed", "unshot", "in_transit", "patches"].map(numbers);
+        (column("time_s"), light)
+    };
+    let (time, [absorbed, unshot, in_transit, patches]) = read("threads", "threads");
+    let (_, [simulated, left, ..]) = read("simulation", "simulation");
+    assert_eq!(time, ["", "", ""]);
+    for i in 0..3 {
+        // No patch keeps more than the threshold, a thousandth of the lamp's energy.
+        assert!(unshot[i].max(left[i]) <= 0.001 * patches[i], "{unshot:?} {left:?}");
+        // In the closed box, only what is not absorbed yet can depend on the order of messages.
+        let difference = (absorbed[i] - simulated[i]).abs();
+        let open = left[i].max(unshot[i] + in_transit[i]);
+        assert!(difference <= open + 1e-9, "{absorbed:?} {simulated:?}");
+    }
+}
+
+#[test]
+fn saved_results_are_drawn_anew() {
+    let project = Project::new(SWEEP);
+    assert_eq!(output(&project, &["run", "experiments/x.json", "--out", "out"]).0, 0);
+    let names = ["report.html", "speed_up-by-processors.svg"];
+    let drawn = || names.map(|name| fs::read(project.path("out").join(name)).unwrap());
+    let before = drawn();
+    names.iter().for_each(|name| fs::remove_file(project.path("out").join(name)).unwrap());
+    let (code, stdout, _) = output(&project, &["plot", "out"]);
+    assert_eq!((code, stdout.as_str()), (0, "out/speed_up-by-processors.svg\nout/report.html\n"));
+    assert_eq!(drawn(), before);
+}
+
+#[test]
+fn files_are_told_apart() {
+    let project = Project::new(SWEEP);
+    let arguments = [
+        "check",
+        "experiments/x.json",
+        "machines/paragon-xps.json",
+        "scenes/box.json",
+        "scenes/box.obj",
+    ];
+    let (code, stdout, stderr) = output(&project, &arguments);
+    assert_eq!((code, stderr.as_str()), (0, ""));
+    assert_eq!(
+        stdout,
+        "experiments/x.json: an experiment, 6 runs of 2 meshed scenes\n\
+         machines/paragon-xps.json: a machine, 56 compute nodes and 2 service nodes\n\
+         scenes/box.json: a scene, 7 polygons\n\
+         scenes/box.obj: an OBJ file, 7 polygons\n"
+    );
+}
+
+#[test]
+fn a_scene_is_shown_in_numbers_and_as_a_picture() {
+    let project = Project::new(SWEEP);
+    for how in ["--emitted", "--solved"] {
+        let arguments = ["scene", "show", "box", "--png", "box.png", "--cut-above", "1.5", how];
+        let (code, stdout, stderr) = output(&project, &arguments);
+        assert_eq!((code, stderr.as_str()), (0, ""));
+        assert!(stdout.contains("polygons        7, 1 of them lights\n"), "{stdout}");
+        assert!(stdout.contains("emitted power   4.0 3.6 3.2 W (red, green, blue)\n"), "{stdout}");
+        let png = fs::read(project.path("box.png")).unwrap();
+        assert!(png.starts_with(b"\x89PNG\r\n"));
+        fs::remove_file(project.path("box.png")).unwrap();
+    }
+}
+
+#[test]
+fn scenes_are_made_the_same_each_time() {
+    let project = Project::new(SWEEP);
+    let made = |out: &str| {
+        let arguments = ["scene", "make", "office", "--seed", "7", "--out", out];
+        assert_eq!(output(&project, &arguments).0, 0);
+        ["office.obj", "office.mtl"].map(|name| fs::read(project.path(out).join(name)).unwrap())
+    };
+    assert_eq!(made("a"), made("b"));
+    assert_eq!(output(&project, &["check", "a/office.obj"]).0, 0);
+}
+
+#[test]
+fn schemas_are_printed_and_a_reader_may_go() {
+    let project = Project::new(SWEEP);
+    for kind in ["experiment", "machine", "scene"] {
+        let (code, stdout, _) = output(&project, &["schema", kind]);
+        assert_eq!(code, 0);
+        assert!(serde_json::from_str::<serde_json::Value>(&stdout).is_ok(), "{kind}");
+    }
+    let mut child = virtwall(&project.path(""), &["schema", "experiment"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let ended = child.wait_with_output().unwrap();
+    assert_eq!(String::from_utf8(ended.stderr).unwrap(), "");
+    assert!(ended.status.success());
+}
+
+#[test]
+fn what_is_shipped_is_valid() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let files = ["experiments", "machines", "scenes"].into_iter().flat_map(|folder| {
+        let entries = fs::read_dir(root.join(folder)).unwrap();
+        entries.map(|entry| entry.unwrap().path())
+    });
+    let files: Vec<_> =
+        files.filter(|path| path.extension().is_some_and(|ending| ending == "json")).collect();
+    let checked = virtwall(&root, &["check"]).args(&files).output().unwrap();
+    assert!(checked.status.success(), "{}", String::from_utf8_lossy(&checked.stderr));
+}

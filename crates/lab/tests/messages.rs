@@ -1,0 +1,248 @@
+//! What is refused, and in which words.
+
+#![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
+
+mod common;
+
+use std::fs;
+
+use common::Project;
+use lab::Plan;
+
+/// The message for an experiment file, with the project's folder taken out of it.
+fn message(project: &Project, arguments: &[&str]) -> String {
+    let arguments: Vec<String> = arguments.iter().map(|&a| a.to_owned()).collect();
+    let Err(fault) = Plan::read(&project.path("experiments/x.json"), &arguments) else {
+        return "nothing wrong".to_owned();
+    };
+    fault.to_string().replace(&project.path("").display().to_string(), "")
+}
+
+#[test]
+fn experiments_are_refused_with_place_value_and_expectation() {
+    let good = r#""title": "t", "scene": "box", "processors": 1, "local_environments": 4"#;
+    for (text, expected) in [
+        ("{", "experiments/x.json:1: EOF while parsing an object"),
+        ("[]", "experiments/x.json: found []; expected an object"),
+        (
+            "{\n\"title\": \"t\",\n\"title\": \"u\"}",
+            "experiments/x.json:3: the key \"title\" stands here twice",
+        ),
+        (r#"{"title": "t", "processors": 1}"#, "experiments/x.json: missing field `scene`"),
+        (
+            &format!("{{{good},\n\"processor\": 2}}"),
+            "experiments/x.json:2: processor: unknown field \"processor\", did you mean \
+             \"processors\"? (there are: $schema, title, scene, machine, processors, \
+             local_environments, cut, cells, patch_size, emitter_patch_size, hemisphere, \
+             selection, ties, stop, merge_masks, mapping, radiosity_updates, seed, compare_with, \
+             plots)",
+        ),
+        (
+            &format!("{{{good}, \"stop\": {{\"every\": 1}}}}"),
+            "experiments/x.json:1: stop.every: unknown field \"every\" (there are: \
+             patch_threshold, energy_threshold, collect_every)",
+        ),
+        (
+            &format!("{{{good},\n \"hemisphere\": {{\"pixels\":\n \"many\"}}}}"),
+            "experiments/x.json:3: hemisphere.pixels: invalid type: string \"many\", expected a \
+             whole number, 0 or more",
+        ),
+        (
+            &format!("{{{good},\n \"hemisphere\": {{\"pixels\": [64,\n 0]}}}}"),
+            "experiments/x.json:3: hemisphere.pixels[1]: 0 pixels do not make a Fibonacci \
+             hemisphere; expected 1 to 16777216",
+        ),
+        (
+            &format!("{{{good}, \"selection\": \"best\"}}"),
+            "experiments/x.json:1: selection: unknown variant `best`, expected `energy` or \
+             `delta_radiosity`",
+        ),
+        (
+            &format!("{{{good}, \"patch_size\": 0.3}}"),
+            "experiments/x.json:1: patch_size: found 0.3 without a unit; expected a length as \
+             text, such as \"0.30 m\"",
+        ),
+        (
+            &format!("{{{good}, \"patch_size\": \"0.3\"}}"),
+            "experiments/x.json:1: patch_size: found \"0.3\" without a unit; expected a length \
+             such as \"0.25 m\"",
+        ),
+        (
+            &format!("{{{good}, \"patch_size\": \"0 m\"}}"),
+            "experiments/x.json:1: patch_size: found \"0 m\"; expected a length more than 0",
+        ),
+        (
+            &format!("{{{good}, \"patch_size\": \"0.1 mm\"}}"),
+            "experiments/x.json:1: patch_size: 0.0001 m makes some 4004000000 patches; expected at \
+             most 20000000",
+        ),
+        (
+            &format!("{{{good}, \"stop\": {{\"patch_threshold\": \"110 %\"}}}}"),
+            "experiments/x.json:1: stop.patch_threshold: found \"110 %\"; expected a fraction \
+             from 0 % to 100 %",
+        ),
+        (
+            &format!("{{{good}, \"stop\": {{\"collect_every\": \"0 s\"}}}}"),
+            "experiments/x.json:1: stop.collect_every: found \"0 s\"; expected a time from 1 ps \
+             to 86400 s",
+        ),
+        (
+            &format!("{{{good}, \"cut\": \"2x2\"}}"),
+            "experiments/x.json:1: cut: \"2x2\" is not three counts of 1 to 4096; expected such \
+             as \"14x4x1\"",
+        ),
+        (
+            &format!("{{{good}, \"cut\": \"2x3x1\"}}"),
+            "experiments/x.json:1: cut: \"2x3x1\" makes 6 local environments; expected 4",
+        ),
+        (
+            &format!("{{{good}, \"cut\": \"4x1x1\", \"cells\": \"2x8x8\"}}"),
+            "experiments/x.json:1: cut: \"4x1x1\" leaves local environments without a cell of \
+             2x8x8; expected at most as many as cells along each axis",
+        ),
+        (
+            r#"{"title": "t", "scene": "box", "processors": 1, "local_environments": 131}"#,
+            "experiments/x.json:1: local_environments: 131 boxes do not fit the grid of cells of \
+             8x4x4; expected a cell or more in each",
+        ),
+        (
+            r#"{"title": "t", "scene": "box", "processors": [1, 0], "local_environments": 4}"#,
+            "experiments/x.json:1: processors[1]: 0; expected 1 or more",
+        ),
+        (
+            r#"{"title": "t", "scene": "box", "processors": [1, 8], "local_environments": 4}"#,
+            "experiments/x.json:1: processors[1]: 8 processors for 4 local environments; expected \
+             at most one for each",
+        ),
+        (
+            r#"{"title": "t", "scene": "box", "processors": 57, "local_environments": 64}"#,
+            "experiments/x.json:1: processors: 57 processors, but \"paragon-xps\" has 56 compute \
+             nodes; expected at most that",
+        ),
+        (
+            r#"{"title": "t", "scene": "bux", "processors": 1}"#,
+            "experiments/x.json:1: scene: unknown scene \"bux\", did you mean \"box\"? (there \
+             are: box)",
+        ),
+        (
+            r#"{"title": "t", "scene": "../bux.obj", "processors": 1}"#,
+            "experiments/x.json:1: scene: \"../bux.obj\": no such file; expected a path from \
+             experiments",
+        ),
+        (
+            &format!("{{{good}, \"machine\": \"cm-5\"}}"),
+            "experiments/x.json:1: machine: unknown machine \"cm-5\" (there are: paragon-xps)",
+        ),
+        (
+            &format!("{{{good}, \"compare_with\": \"table9.csv\"}}"),
+            "experiments/x.json:1: compare_with: \"table9.csv\": no such file; expected a path \
+             from this file",
+        ),
+        (
+            &format!("{{{good}, \"plots\": [{{\"x\": \"processors\", \"y\": \"message\"}}]}}"),
+            "experiments/x.json:1: plots[0].y: unknown column \"message\", did you mean \
+             \"messages\"? (there are: scene, processors, local_environments, seed, time_s, \
+             speed_up, paper_time_s, paper_speed_up, local_shots, received_shots, messages, \
+             message_bytes, busy_fraction, energy_error, efficiency, update_messages, \
+             update_bytes, control_messages, ending, energy_lost, patches, absorbed, unshot, \
+             in_transit, escaped, operations, failure)",
+        ),
+        (
+            &format!(
+                "{{{good}, \"plots\": [{{\"x\": \"scene\", \"y\": \"time_s\", \"file\": \"../x\"}}]}}"
+            ),
+            "experiments/x.json:1: plots[0].file: \"../x\" names a file; expected letters, \
+             digits, \"-\", \"_\" and \".\", the first one no \".\"",
+        ),
+        (
+            &format!("{{{good}, \"title\": [\"a\", \"b\"]}}").replacen("\"title\": \"t\", ", "", 1),
+            "experiments/x.json:1: title: invalid type: sequence, expected a string",
+        ),
+        (
+            &format!("{{{good}, \"mapping\": []}}"),
+            "experiments/x.json:1: mapping: an empty list; expected at least one value to sweep",
+        ),
+    ] {
+        assert_eq!(message(&Project::new(text), &[]), expected, "{text}");
+    }
+}
+
+#[test]
+fn arguments_are_named_where_they_are_at_fault() {
+    let project = Project::new(common::SWEEP);
+    for (argument, expected) in [
+        ("processors", "--set processors: expected path=value, such as hemisphere.pixels=4096"),
+        ("title.x=1", "--set title.x=1: the path leads into a value that has no fields"),
+        (
+            "processors=[1,9]",
+            "--set processors=[1,9]: processors[1]: 9 processors for 4 local environments; \
+             expected at most one for each",
+        ),
+        (
+            "stop.patch_threshold=5",
+            "--set stop.patch_threshold=5: stop.patch_threshold: found 5 without a unit; expected \
+             a fraction as text, such as \"10 %\"",
+        ),
+        ("stop.patch_threshold=5 %", "nothing wrong"),
+        ("mapping=[\"blocks\",\"cyclic\"]", "nothing wrong"),
+    ] {
+        assert_eq!(message(&project, &[argument]), expected, "{argument}");
+    }
+}
+
+#[test]
+fn files_that_an_experiment_names_are_refused_at_their_own_places() {
+    for (file, text, expected) in [
+        (
+            "scenes/box.json",
+            r#"{"obj": "bax.obj", "patch_size": "1 m"}"#,
+            "scenes/box.json:1: obj: \"bax.obj\": no such file in scenes",
+        ),
+        (
+            "scenes/box.json",
+            "{\"obj\": \"box.obj\",\n\"patch_size\": 1}",
+            "scenes/box.json:2: patch_size: found 1 without a unit; expected a length as text, \
+             such as \"0.30 m\"",
+        ),
+        (
+            "scenes/box.json",
+            r#"{"obj": "box.obj", "patch_size": "1 m", "cuts": {"4": "2x1x1"}}"#,
+            "scenes/box.json:1: cuts.4: \"2x1x1\" makes 2 local environments; expected as many as \
+             its key says",
+        ),
+        (
+            "scenes/box.json",
+            r#"{"obj": "box.obj", "patch_size": "1 m", "cut": "4x1x1"}"#,
+            "scenes/box.json:1: cut: unknown field \"cut\", did you mean \"cuts\"? (there are: \
+             $schema, title, obj, patch_size, emitter_patch_size, cells, cuts, source)",
+        ),
+        (
+            "experiments/paper.csv",
+            "scene,processors,time\nbox,1,1\n",
+            "experiments/paper.csv:1: no column \"time_s\"; expected scene, processors, time_s, \
+             speed_up",
+        ),
+        (
+            "experiments/paper.csv",
+            "scene,processors,time_s,speed_up\nbox,1,1,1\nbox,2,fast,1\n",
+            "experiments/paper.csv:3: time_s \"fast\"; expected a number above 0, or nothing",
+        ),
+    ] {
+        let project = Project::new(
+            r#"{"title": "t", "scene": "box", "processors": 1, "local_environments": 4,
+                "compare_with": "paper.csv"}"#,
+        );
+        project.write("experiments/paper.csv", "scene,processors,time_s,speed_up\n");
+        project.write(file, text);
+        assert_eq!(message(&project, &[]), expected, "{text}");
+    }
+}
+
+#[test]
+fn a_name_that_would_write_elsewhere_is_refused() {
+    let project = Project::new(common::SWEEP);
+    let hidden = project.path("experiments/..json");
+    fs::copy(project.path("experiments/x.json"), &hidden).unwrap();
+    let fault = Plan::read(&hidden, &[]).err().unwrap().to_string();
+    assert!(fault.contains("the name \".\" names its results; expected letters"), "{fault}");
+}
