@@ -13,12 +13,13 @@ use crate::table::Table;
 
 /// Drawing units a pixel: plotters rounds coordinates to whole units, which one would see.
 const FINE: u32 = 8;
-/// Size of a plot, pixels.
-const SIZE: (u32, u32) = (800, 540);
-/// Room on the right for the names of lines, pixels.
-const NAMES: u32 = 130;
-/// Height of a line's name.
-const NAME_HEIGHT: i32 = px(17);
+/// Width of a plot without the names of its lines, and its least height, pixels.
+const SIZE: (u32, u32) = (670, 540);
+/// Height of a line's name, and about the width of one of its letters, pixels.
+const LETTER: (u32, u32) = (8, 17);
+/// Above and below the axes, pixels.
+const HEAD: u32 = 56;
+const FOOT: u32 = 62;
 
 /// Okabe and Ito's colours, which colour-blind readers can tell apart.
 const COLOURS: [RGBColor; 6] = [
@@ -42,13 +43,17 @@ type Drawn = Result<(), Box<dyn std::error::Error>>;
 pub fn svg(table: &Table, sweeps: &[String], plot: &Plot) -> String {
     let drawing = Drawing::of(table, sweeps, plot);
     let mut text = String::new();
+    let (width, height) = size(&drawing);
     let drawn = {
-        let size = (SIZE.0 * FINE, SIZE.1 * FINE);
-        let area = SVGBackend::with_string(&mut text, size).into_drawing_area();
+        let fine = (width * FINE, height * FINE);
+        let area = SVGBackend::with_string(&mut text, fine).into_drawing_area();
         draw(&area, &drawing, plot)
     };
+    // Shown in its size in pixels: the view box keeps the finer units.
+    let [fine, pixels] =
+        [FINE, 1].map(|unit| format!("width=\"{}\" height=\"{}\"", width * unit, height * unit));
     match drawn {
-        Ok(()) => in_pixels(&text),
+        Ok(()) => text.replacen(&fine, &pixels, 1),
         // Drawing to memory does not fail; should a plot ever, it says so in its place.
         Err(error) => {
             format!("<svg xmlns=\"http://www.w3.org/2000/svg\"><desc>{error}</desc></svg>")
@@ -56,11 +61,12 @@ pub fn svg(table: &Table, sweeps: &[String], plot: &Plot) -> String {
     }
 }
 
-/// The same drawing, shown in its size in pixels: its view box keeps the finer units.
-fn in_pixels(svg: &str) -> String {
-    let [fine, pixels] =
-        [FINE, 1].map(|unit| format!("width=\"{}\" height=\"{}\"", SIZE.0 * unit, SIZE.1 * unit));
-    svg.replacen(&fine, &pixels, 1)
+/// Width and height, pixels: with room for the longest name of a line, and for all of them.
+fn size(drawing: &Drawing) -> (u32, u32) {
+    let longest = drawing.series.iter().map(|series| series.name.chars().count()).max();
+    let width = SIZE.0 + 30 + LETTER.0 * longest.unwrap_or(0).min(100) as u32;
+    let names = drawing.series.len().min(1000) as u32 * LETTER.1;
+    (width, SIZE.1.max(HEAD + FOOT + names))
 }
 
 /// Drawing units of a length in pixels.
@@ -69,18 +75,18 @@ const fn px(pixels: u32) -> i32 {
 }
 
 fn draw(area: &Area, drawing: &Drawing, plot: &Plot) -> Drawn {
-    let title = plot.title.clone().unwrap_or_else(|| {
-        let title = format!("{} by {}", label(&plot.y), label(&plot.x).to_lowercase());
-        title.replace(" (s)", "")
-    });
+    let title = plot
+        .title
+        .clone()
+        .unwrap_or_else(|| format!("{} by {}", words(&plot.y), words(&plot.x).to_lowercase()));
     area.fill(&WHITE)?;
     area.draw(&Text::new(title, (px(24), px(18)), font(19, INK)))?;
     let mut chart = ChartBuilder::on(area)
-        .margin_top(px(56))
-        .margin_right(px(NAMES))
+        .margin_top(px(HEAD))
+        .margin_right(px(size(drawing).0 - SIZE.0))
         .margin_bottom(px(14))
         .margin_left(px(14))
-        .x_label_area_size(px(48))
+        .x_label_area_size(px(FOOT - 14))
         .y_label_area_size(px(62))
         .build_cartesian_2d(x_scale(drawing, plot), y_scale(drawing, plot))?;
     chart
@@ -92,8 +98,8 @@ fn draw(area: &Area, drawing: &Drawing, plot: &Plot) -> Drawn {
         .set_all_tick_mark_size(px(5))
         .label_style(font(14, INK))
         .axis_desc_style(font(15, INK))
-        .x_desc(label(&plot.x))
-        .y_desc(label(&plot.y))
+        .x_desc(with_unit(&plot.x, &drawing.unit))
+        .y_desc(with_unit(&plot.y, ""))
         .draw()?;
     let ideal = plot.x == "processors" && plot.y == "speed_up";
     if ideal {
@@ -151,13 +157,14 @@ fn draw_names(area: &Area, chart: &Chart, drawing: &Drawing) -> Drawn {
         .collect();
     ends.sort_unstable();
     let last = ends.len().saturating_sub(1) as i32;
-    let bottom = px(SIZE.1 - 62) - NAME_HEIGHT * last;
+    let (left, height) = (px(SIZE.0 + 12), px(LETTER.1));
+    let bottom = px(size(drawing).1 - FOOT) - height * last;
     let mut free = i32::MIN;
     for (rank, (y, i)) in (0..).zip(ends) {
-        let y = y.max(free).min(bottom + NAME_HEIGHT * rank);
-        free = y + NAME_HEIGHT;
+        let y = y.max(free).min(bottom + height * rank);
+        free = y + height;
         let name = drawing.series[i].name.clone();
-        area.draw(&Text::new(name, (px(SIZE.0 - NAMES + 12), y), beside(15, colour(i))))?;
+        area.draw(&Text::new(name, (left, y), beside(15, colour(i))))?;
     }
     Ok(())
 }
@@ -206,16 +213,23 @@ fn beside(pixels: u32, colour: RGBColor) -> TextStyle<'static> {
     font(pixels, colour).pos(Pos::new(HPos::Left, VPos::Center))
 }
 
-/// A column's name for people.
-fn label(column: &str) -> String {
-    match column {
-        "time_s" => "Time (s)".to_owned(),
-        "speed_up" => "Speed-up".to_owned(),
-        other => {
-            let words = other.replace(['_', '.'], " ");
-            let mut letters = words.chars();
-            let first = letters.next().into_iter().flat_map(char::to_uppercase);
-            first.chain(letters).collect()
-        }
+/// A column's name for people: without the field that holds it, and without its unit.
+fn words(column: &str) -> String {
+    let name = column.rsplit('.').next().unwrap_or(column);
+    match name {
+        "speed_up" => return "Speed-up".to_owned(),
+        "paper_speed_up" => return "Paper's speed-up".to_owned(),
+        _ => {}
     }
+    let words = name.strip_suffix("_s").unwrap_or(name).replace('_', " ");
+    let mut letters = words.chars();
+    let first = letters.next().into_iter().flat_map(char::to_uppercase);
+    first.chain(letters).collect()
+}
+
+/// A column's name with its unit: one of its cells, or the one that the name ends in.
+fn with_unit(column: &str, unit: &str) -> String {
+    let unit = if column.ends_with("_s") { "s" } else { unit };
+    let words = words(column);
+    if unit.is_empty() { words } else { format!("{words} ({unit})") }
 }

@@ -1,5 +1,7 @@
 //! The results in the manner of the paper's Table 1, and as text for a terminal.
 
+use std::collections::BTreeMap;
+
 use crate::summary::{Summary, ratio};
 use crate::table::Table;
 
@@ -20,9 +22,15 @@ pub struct Line {
     pub note: String,
 }
 
-/// The results, line by line.
+/// The results, line by line, those of a group together, in the order of the groups' first lines.
 pub fn lines(table: &Table, sweeps: &[String]) -> Vec<Line> {
-    table.rows.iter().map(|row| line(table, row, sweeps)).collect()
+    let mut lines: Vec<Line> = table.rows.iter().map(|row| line(table, row, sweeps)).collect();
+    let mut first = BTreeMap::new();
+    for (i, line) in lines.iter().enumerate() {
+        first.entry(line.group.clone()).or_insert(i);
+    }
+    lines.sort_by_key(|line| first[&line.group]);
+    lines
 }
 
 fn line(table: &Table, row: &[String], sweeps: &[String]) -> Line {

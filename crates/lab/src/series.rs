@@ -21,14 +21,18 @@ pub struct Drawing {
     pub series: Vec<Series>,
     /// Names along the horizontal axis, at 0, 1, 2, ..., if its column holds no numbers.
     pub categories: Vec<String>,
+    /// Unit along the horizontal axis; empty if there is none.
+    pub unit: String,
 }
 
 impl Drawing {
     /// What `plot` shows of the results; every field of `sweeps` that is neither x nor the
     /// series makes lines of its own.
     pub fn of(table: &Table, sweeps: &[String], plot: &Plot) -> Drawing {
-        let numeric = table.rows.iter().all(|row| table.number(row, &plot.x).is_some());
-        let mut drawing = Drawing { series: Vec::new(), categories: Vec::new() };
+        let unit = common_unit(table, &plot.x);
+        let numeric = unit.is_some();
+        let unit = unit.unwrap_or_default().to_owned();
+        let mut drawing = Drawing { series: Vec::new(), categories: Vec::new(), unit };
         let paper = match plot.y.as_str() {
             "speed_up" => "paper_speed_up",
             "time_s" => "paper_time_s",
@@ -62,6 +66,13 @@ impl Drawing {
     }
 }
 
+/// The unit of all cells of a column; `None` if they have not the same, or are no numbers.
+fn common_unit<'a>(table: &'a Table, column: &str) -> Option<&'a str> {
+    let mut units = table.rows.iter().map(|row| table.quantity(row, column).map(|(_, unit)| unit));
+    let first = units.next()??;
+    units.all(|unit| unit == Some(first)).then_some(first)
+}
+
 /// The name of a row's line: its series, and what is swept besides.
 fn name(table: &Table, row: &[String], sweeps: &[String], plot: &Plot) -> String {
     let series = plot.series.iter();
@@ -90,4 +101,36 @@ fn position(names: &mut Vec<String>, name: &str) -> usize {
         names.push(name.to_owned());
         names.len() - 1
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn drawing(cells: &[[&str; 3]], plot: &str) -> Drawing {
+        let own = |row: &[&str; 3]| row.map(str::to_owned).to_vec();
+        let columns = own(&["scene", "size", "time_s"]);
+        let table = Table { columns, rows: cells.iter().map(own).collect() };
+        let plot = serde_json::from_str(plot).unwrap();
+        Drawing::of(&table, &["scene".to_owned(), "size".to_owned()], &plot)
+    }
+
+    #[test]
+    fn quantities_of_one_unit_make_an_axis_of_it() {
+        let rows = [["a", "0.3 m", "5"], ["a", "0.1 m", "4"], ["b", "0.3 m", "-1"]];
+        let drawing = drawing(&rows, r#"{"x": "size", "y": "time_s", "log_y": true}"#);
+        assert_eq!(drawing.unit, "m");
+        let points: Vec<_> =
+            drawing.series.iter().map(|s| (s.name.as_str(), s.simulated.as_slice())).collect();
+        assert_eq!(points, [("a", &[(0.1, 4.0), (0.3, 5.0)][..]), ("b", &[])]);
+    }
+
+    #[test]
+    fn other_cells_stand_side_by_side() {
+        let rows = [["a", "0.3 m", "5"], ["b", "30 cm", "4"]];
+        let by_size = drawing(&rows, r#"{"x": "size", "y": "time_s"}"#);
+        assert_eq!(by_size.categories, ["0.3 m", "30 cm"]);
+        let by_scene = drawing(&rows, r#"{"x": "scene", "y": "time_s", "series": "size"}"#);
+        assert_eq!((by_scene.categories.len(), by_scene.unit.as_str()), (2, ""));
+    }
 }

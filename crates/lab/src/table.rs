@@ -66,11 +66,17 @@ impl Table {
         index.and_then(|index| row.get(index)).map_or("", String::as_str)
     }
 
+    /// A cell's number and its unit, which may be empty; `None` if it is no number.
+    pub fn quantity<'a>(&'a self, row: &'a [String], column: &str) -> Option<(f64, &'a str)> {
+        let text = self.cell(row, column).trim();
+        let end = text.find(|c: char| !"+-.eE0123456789".contains(c)).unwrap_or(text.len());
+        let number = text[..end].parse().ok().filter(|number: &f64| number.is_finite())?;
+        Some((number, text[end..].trim()))
+    }
+
     /// A cell as a number, its unit left out; `None` if it is none.
     pub fn number(&self, row: &[String], column: &str) -> Option<f64> {
-        let text = self.cell(row, column).trim();
-        let number = text.split_whitespace().next()?.trim_end_matches('%');
-        number.parse().ok().filter(|number: &f64| number.is_finite())
+        self.quantity(row, column).map(|(number, _)| number)
     }
 }
 
