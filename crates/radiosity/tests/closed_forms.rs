@@ -1,5 +1,7 @@
 //! Scenes whose answer is known.
 
+#![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
+
 use radiosity::glam::DVec3;
 use radiosity::{
     Face, Hemisphere, HemisphereKind, LocalEnvironment, Mask, Material, PatchSize, Rgb, Scene,

@@ -1,5 +1,7 @@
 //! What virtual interfaces must not change: where a ray ends, and what becomes of each pixel.
 
+#![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
+
 mod common;
 
 use common::{face, grey, problem, scene, sides};

@@ -1,5 +1,7 @@
 //! The programs as a whole: on the simulated Paragon and on threads.
 
+#![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
+
 mod common;
 
 use std::sync::Arc;
