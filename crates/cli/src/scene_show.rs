@@ -43,16 +43,25 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         return Err(Exit::bad_input("--cut-above: not a height; expected metres, such as 2.5"));
     }
     let open = OpenScene::load(&arguments.scene)?;
-    let text = numbers(&open);
+    let (space, whole) = meshed(&open);
+    let text = numbers(&open, &whole);
     if let Some(path) = &arguments.png {
-        let picture = picture(&open, arguments).map_err(Exit::bad_input)?;
+        let picture = picture(&open, &space, &whole, arguments).map_err(Exit::bad_input)?;
         let bytes = picture.encode_png().map_err(Exit::failure)?;
         lab::write_file(path, &bytes).map_err(Exit::bad_input)?;
     }
     Ok(text)
 }
 
-fn numbers(open: &OpenScene) -> String {
+/// The scene in its grid, unsplit: meshed as one environment.
+fn meshed(open: &OpenScene) -> (Space, LocalEnvironment) {
+    let space = Space::new(open.scene.clone(), open.cells);
+    let size = PatchSize { reflector: open.patch_size, emitter: open.emitter_patch_size };
+    let whole = LocalEnvironment::new(&space, space.grid.whole(), size);
+    (space, whole)
+}
+
+fn numbers(open: &OpenScene, whole: &LocalEnvironment) -> String {
     let scene = &open.scene;
     let world = |local: Rgb| (local + scene.origin).to_array().map(|c| format!("{c:.2}")).join(" ");
     let power = scene.emitted_power().to_array().map(|watts| format!("{watts:.1}")).join(" ");
@@ -72,26 +81,29 @@ fn numbers(open: &OpenScene) -> String {
         "patch size",
         format!("{:.3} m, of lights {:.3} m", open.patch_size, open.emitter_patch_size),
     );
+    line("patches", format!("{} before any cut", whole.patches.len()));
     line("cells", format!("{x} x {y} x {z}"));
     open.warnings.iter().for_each(|warning| line("warning", warning.clone()));
     text
 }
 
-fn picture(open: &OpenScene, arguments: &Arguments) -> Result<Picture, PictureError> {
+fn picture(
+    open: &OpenScene,
+    space: &Space,
+    whole: &LocalEnvironment,
+    arguments: &Arguments,
+) -> Result<Picture, PictureError> {
     let camera = Camera::overview(&open.scene.bounds);
     let cut_above = arguments.cut_above.map(|height| height - open.scene.origin.z);
     let options = PictureOptions { cut_above, ..PictureOptions::default() };
     if !arguments.solved {
         return render(&open.scene, &camera, studio_light(&open.scene), options);
     }
-    let space = Space::new(open.scene.clone(), open.cells);
-    let size = PatchSize { reflector: open.patch_size, emitter: open.emitter_patch_size };
-    let whole = LocalEnvironment::new(&space, space.grid.whole(), size);
     let hemisphere = Hemisphere::new(HemisphereKind::Fibonacci, PIXELS, true)
         .expect("4096 is a number of pixels that a Fibonacci disc can have");
-    let (light, _) = solve(&space, &whole, &hemisphere, UNSHOT, MOST_SHOTS);
+    let (light, _) = solve(space, whole, &hemisphere, UNSHOT, MOST_SHOTS);
     let colour = |polygon, point| {
-        whole.patch_at(polygon, point).map_or(Rgb::ZERO, |patch| light.radiosity(&whole, patch))
+        whole.patch_at(polygon, point).map_or(Rgb::ZERO, |patch| light.radiosity(whole, patch))
     };
     render(&space.scene, &camera, colour, options)
 }

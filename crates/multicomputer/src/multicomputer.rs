@@ -8,18 +8,11 @@ use desim::Handle;
 use crate::account::NodeAccount;
 use crate::machine::{Machine, MachineError};
 use crate::network::Network;
-use crate::node::{Node, NodeState, Rank};
+use crate::node::{Node, NodeState, Rank, Shared};
 
 /// A machine on which processes run that send each other messages of type `M`. Clones are the same
 /// machine.
 pub struct Multicomputer<M>(Rc<Shared<M>>);
-
-/// What all nodes share.
-pub(crate) struct Shared<M> {
-    pub(crate) handle: Handle,
-    pub(crate) network: RefCell<Box<dyn Network>>,
-    pub(crate) nodes: Vec<NodeState<M>>,
-}
 
 impl<M> Clone for Multicomputer<M> {
     fn clone(&self) -> Multicomputer<M> {

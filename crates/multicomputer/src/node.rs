@@ -8,7 +8,7 @@ use desim::{Duration, Handle, Signal, Time};
 
 use crate::account::{Activity, Ledger};
 use crate::mesh::Place;
-use crate::multicomputer::Shared;
+use crate::network::Network;
 
 /// Number of a process, from 0.
 pub type Rank = usize;
@@ -17,6 +17,13 @@ pub type Rank = usize;
 pub struct Node<M> {
     rank: Rank,
     shared: Rc<Shared<M>>,
+}
+
+/// What all nodes of a multicomputer share.
+pub(crate) struct Shared<M> {
+    pub(crate) handle: Handle,
+    pub(crate) network: RefCell<Box<dyn Network>>,
+    pub(crate) nodes: Vec<NodeState<M>>,
 }
 
 /// What a multicomputer keeps for a node.

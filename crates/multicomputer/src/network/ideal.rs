@@ -2,8 +2,8 @@
 
 use desim::{Duration, Time};
 
+use super::delivery::{Delivery, Network};
 use crate::mesh::Place;
-use crate::network::{Delivery, Network};
 
 /// Messages arrive at once and cost nothing.
 #[derive(Clone, Copy, Debug, Default)]

@@ -14,8 +14,8 @@
 
 use desim::{Duration, Time};
 
+use super::delivery::{Delivery, Network};
 use crate::mesh::{Mesh, Place};
-use crate::network::{Delivery, Network};
 
 /// Parameters of the model.
 #[derive(Clone, Debug, PartialEq)]
