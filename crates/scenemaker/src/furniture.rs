@@ -72,8 +72,10 @@ fn legs(obj: &mut Obj, x: Span, y: Span, width: i32, height: i32) {
 pub fn bookcase(obj: &mut Obj, body: Cuboid, rng: &mut ChaCha8Rng) {
     const BOARD: i32 = 30;
     const LEVELS: i32 = 4;
-    let Cuboid { x, y, z } = body;
+    let Cuboid { x, z, .. } = body;
     let inside = [x[0] + BOARD, x[1] - BOARD];
+    // The back board stands between the hollow and the wall: in one plane they would fight.
+    let y = [body.y[0], body.y[1] - BOARD];
     let hollow = Cuboid { x: inside, y, z };
     obj.faces(&DARK_WOOD, body, &[East, West, Up]);
     obj.faces(&DARK_WOOD, Cuboid { x: [x[0], inside[0]], ..body }, &[South]);
@@ -99,7 +101,7 @@ pub fn bookcase(obj: &mut Obj, body: Cuboid, rng: &mut ChaCha8Rng) {
     }
 }
 
-/// Books side by side, seen as one block that leans on the left side or stands free.
+/// Books side by side, seen as one block.
 fn books(obj: &mut Obj, hollow: Cuboid, floor: i32, rng: &mut ChaCha8Rng) {
     let cloth = [&RED, &BLUE, &GREEN, &YELLOW][rng.random_range(0..4)];
     let room = hollow.x[1] - hollow.x[0];
