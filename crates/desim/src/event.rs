@@ -3,9 +3,8 @@
 use std::collections::BTreeMap;
 use std::rc::Weak;
 
-use crate::process::ProcessId;
+use crate::ticket::{ProcessId, Ticket};
 use crate::time::Time;
-use crate::wait::Ticket;
 
 /// What happens at a moment of virtual time.
 pub(crate) enum Event {

@@ -4,14 +4,15 @@ use std::future::Future;
 use std::rc::Rc;
 
 use crate::event::Event;
-use crate::process::{Process, ProcessId};
-use crate::simulation::{Core, Observation};
+use crate::process::Process;
+use crate::state::{Observation, State};
+use crate::ticket::{ProcessId, Reason};
 use crate::time::{Duration, Time};
-use crate::wait::{Reason, Ticket, Wait};
+use crate::wait::Wait;
 
 /// Access to a running simulation; cheap to clone and to move into a process.
 #[derive(Clone)]
-pub struct Handle(pub(crate) Rc<Core>);
+pub struct Handle(pub(crate) Rc<State>);
 
 impl Handle {
     /// The present virtual time.
@@ -30,7 +31,7 @@ impl Handle {
         let id = ProcessId(processes.len());
         let name = name.into().into();
         processes.push(Process { name, body: Some(Box::pin(future)), tickets: Vec::new() });
-        self.schedule(self.now(), Event::Start(id));
+        self.0.schedule(self.now(), Event::Start(id));
         id
     }
 
@@ -42,7 +43,7 @@ impl Handle {
 
     /// Waits until a moment; one that is past counts as the present.
     pub fn sleep_until(&self, time: Time) -> impl Future<Output = ()> + use<> {
-        let wait = Wait { handle: self.clone(), signal: None, until: Some(time), ticket: None };
+        let wait = Wait::new(&self.0, Reason::Time(time), Some(time));
         async move {
             wait.await;
         }
@@ -51,31 +52,12 @@ impl Handle {
     /// Calls `action` at a moment; one that is past counts as the present. The call is an event of
     /// its own, never made from within `at`.
     pub fn at(&self, time: Time, action: impl FnOnce() + 'static) {
-        self.schedule(time, Event::Call(Box::new(action)));
+        self.0.schedule(time, Event::Call(Box::new(action)));
     }
 
     /// Has every step of every process reported, as (time, process, what happened), to `observer`,
     /// in place of an earlier observer.
     pub fn set_observer(&self, observer: impl FnMut(Time, &str, Observation) + 'static) {
         *self.0.observer.borrow_mut() = Some(Box::new(observer));
-    }
-
-    /// Schedules an event, not earlier than now.
-    pub(crate) fn schedule(&self, time: Time, event: Event) {
-        self.0.queue.borrow_mut().schedule(time.max(self.now()), event);
-    }
-
-    /// A ticket for the process that runs now.
-    ///
-    /// # Panics
-    /// When no process runs: a wait of this crate was polled by a foreign executor.
-    pub(crate) fn issue_ticket(&self, on: Reason) -> Rc<Ticket> {
-        let process = self.0.current.get();
-        let process = process.expect("only processes of the simulation await its futures");
-        let ticket = Rc::new(Ticket { process, on, outcome: Default::default() });
-        if let Some(process) = self.0.processes.borrow_mut().get_mut(process.0) {
-            process.tickets.push(Rc::downgrade(&ticket));
-        }
-        ticket
     }
 }

@@ -25,12 +25,15 @@ mod process;
 mod signal;
 mod simulation;
 mod stalled;
+mod state;
+mod ticket;
 mod time;
 mod wait;
 
 pub use handle::Handle;
-pub use process::ProcessId;
 pub use signal::Signal;
-pub use simulation::{Observation, Simulation};
+pub use simulation::Simulation;
 pub use stalled::{Stalled, Waiting};
+pub use state::Observation;
+pub use ticket::ProcessId;
 pub use time::{Duration, Time};

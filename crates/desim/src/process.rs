@@ -5,11 +5,7 @@ use std::pin::Pin;
 use std::rc::{Rc, Weak};
 
 use crate::stalled::Waiting;
-use crate::wait::Ticket;
-
-/// Identity of a process within its simulation, in order of creation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct ProcessId(pub(crate) usize);
+use crate::ticket::Ticket;
 
 /// The body of a process.
 pub(crate) type Body = Pin<Box<dyn Future<Output = ()>>>;

@@ -2,45 +2,39 @@
 
 use std::cell::RefCell;
 use std::future::Future;
-use std::rc::{Rc, Weak};
+use std::rc::Rc;
 
 use crate::event::Event;
 use crate::handle::Handle;
+use crate::state::State;
+use crate::ticket::{Outcome, Reason, Waiters};
 use crate::time::Time;
-use crate::wait::{Outcome, Ticket, Wait};
+use crate::wait::Wait;
 
 /// A thing to wait for, without memory: a notification reaches those who wait at that moment, and
 /// nobody else. Clones are the same signal.
 #[derive(Clone)]
-pub struct Signal(Rc<State>);
-
-struct State {
-    handle: Handle,
-    name: Rc<str>,
-    /// In order of arrival.
-    waiters: RefCell<Vec<Weak<Ticket>>>,
+pub struct Signal {
+    state: Rc<State>,
+    waiters: Rc<Waiters>,
 }
 
 impl Signal {
     /// A new signal; `name` is what a [`crate::Stalled`] report calls it.
     pub fn new(handle: &Handle, name: impl Into<String>) -> Signal {
-        Signal(Rc::new(State {
-            handle: handle.clone(),
-            name: name.into().into(),
-            waiters: RefCell::default(),
-        }))
+        let waiters = Waiters { name: name.into(), tickets: RefCell::default() };
+        Signal { state: Rc::clone(&handle.0), waiters: Rc::new(waiters) }
     }
 
     /// Wakes every waiting process by an event at the present time, first come, first served.
     pub fn notify(&self) {
-        let now = self.0.handle.now();
-        for waiter in self.0.waiters.take() {
+        for waiter in self.waiters.tickets.take() {
             let Some(ticket) = waiter.upgrade() else { continue };
             // Decided here and not when the event comes: a timer of this very moment that is still
             // in the queue came second.
             if ticket.outcome.get().is_none() {
                 ticket.outcome.set(Some(Outcome::Notified));
-                self.0.handle.schedule(now, Event::Wake(waiter));
+                self.state.schedule(self.state.now.get(), Event::Wake(waiter));
             }
         }
     }
@@ -61,17 +55,6 @@ impl Signal {
     }
 
     fn begin_wait(&self, until: Option<Time>) -> Wait {
-        Wait { handle: self.0.handle.clone(), signal: Some(self.clone()), until, ticket: None }
-    }
-
-    pub(crate) fn name(&self) -> Rc<str> {
-        self.0.name.clone()
-    }
-
-    /// Adds a waiter, and forgets those that gave up: else waits that time out would pile up.
-    pub(crate) fn enlist(&self, ticket: &Rc<Ticket>) {
-        let mut waiters = self.0.waiters.borrow_mut();
-        waiters.retain(|waiter| waiter.strong_count() > 0);
-        waiters.push(Rc::downgrade(ticket));
+        Wait::new(&self.state, Reason::Signal(Rc::clone(&self.waiters)), until)
     }
 }

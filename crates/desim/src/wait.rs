@@ -1,70 +1,36 @@
 //! Waiting: the one future on which all others of this crate are built.
 
-use std::cell::Cell;
-use std::fmt;
 use std::future::Future;
 use std::pin::Pin;
 use std::rc::Rc;
 use std::task::{Context, Poll};
 
 use crate::event::Event;
-use crate::handle::Handle;
-use crate::process::ProcessId;
-use crate::signal::Signal;
+use crate::state::State;
+use crate::ticket::{Outcome, Reason, Ticket};
 use crate::time::Time;
-
-/// How a wait ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Outcome {
-    /// The signal came.
-    Notified,
-    /// The time came.
-    TimeCame,
-}
-
-/// One wait under way. The waiting future owns it; events and signals hold it weakly, so that
-/// whatever they still have in hand when the future is done or dropped does no harm.
-pub(crate) struct Ticket {
-    pub(crate) process: ProcessId,
-    pub(crate) on: Reason,
-    pub(crate) outcome: Cell<Option<Outcome>>,
-}
-
-/// What a wait is for.
-pub(crate) enum Reason {
-    Signal(Rc<str>),
-    Time(Time),
-}
-
-impl fmt::Display for Reason {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Reason::Signal(name) => f.write_str(name),
-            Reason::Time(time) => time.fmt(f),
-        }
-    }
-}
 
 /// Waits for a signal, a time, or whichever comes first. Begins when first polled.
 pub(crate) struct Wait {
-    pub(crate) handle: Handle,
-    pub(crate) signal: Option<Signal>,
-    pub(crate) until: Option<Time>,
-    pub(crate) ticket: Option<Rc<Ticket>>,
+    state: Rc<State>,
+    on: Reason,
+    until: Option<Time>,
+    ticket: Option<Rc<Ticket>>,
 }
 
 impl Wait {
+    /// A wait that has not begun; `until` is the time that it lasts at most.
+    pub(crate) fn new(state: &Rc<State>, on: Reason, until: Option<Time>) -> Wait {
+        Wait { state: Rc::clone(state), on, until, ticket: None }
+    }
+
     fn begin(&self) -> Rc<Ticket> {
-        let on = match (&self.signal, self.until) {
-            (Some(signal), _) => Reason::Signal(signal.name()),
-            (None, until) => Reason::Time(until.unwrap_or(Time::MAX)),
-        };
-        let ticket = self.handle.issue_ticket(on);
-        if let Some(signal) = &self.signal {
-            signal.enlist(&ticket);
+        let ticket = self.state.issue_ticket(self.on.clone());
+        if let Reason::Signal(waiters) = &self.on {
+            waiters.enlist(&ticket);
         }
         if let Some(time) = self.until {
-            self.handle.schedule(time, Event::Timer(Rc::downgrade(&ticket)));
+            self.state.schedule(time, Event::Timer(Rc::downgrade(&ticket)));
         }
         ticket
     }

@@ -7,7 +7,7 @@ use crate::engine;
 use crate::fault::Fault;
 use crate::find::Found;
 use crate::plan::Plan;
-use crate::problem::Scene;
+use crate::scene::Scene;
 
 /// Validates an experiment, a machine, a scene description or an OBJ file, with all that it
 /// names, and says what it is.
@@ -16,8 +16,7 @@ use crate::problem::Scene;
 /// The first fault met.
 pub fn check(path: &Path) -> Result<String, Fault> {
     if path.extension().is_some_and(|ending| ending == "obj") {
-        let scene = engine::Scene::load(path, &path.display().to_string())?;
-        return Ok(with_warnings(format!("an OBJ file, {} polygons", scene.polygons()), &scene));
+        return scene(path, "an OBJ file");
     }
     let document = Document::read(path)?;
     let has = |key: &str| document.value.get(key).is_some();
@@ -27,9 +26,7 @@ pub fn check(path: &Path) -> Result<String, Fault> {
         return Ok(format!("an experiment, {runs} runs of {problems} meshed scenes"));
     }
     if has("obj") {
-        let found = Found { path: path.to_owned(), label: path.display().to_string() };
-        let scene = Scene::load(&found)?.geometry;
-        return Ok(with_warnings(format!("a scene, {} polygons", scene.polygons()), &scene));
+        return scene(path, "a scene");
     }
     if has("processor") || has("network") {
         let machine = engine::load_machine(path)?;
@@ -41,9 +38,10 @@ pub fn check(path: &Path) -> Result<String, Fault> {
     Err(Fault::of_file(path.display(), message))
 }
 
-fn with_warnings(mut text: String, scene: &engine::Scene) -> String {
-    for warning in &scene.warnings {
-        text += &format!("\n  warning: {warning}");
-    }
-    text
+fn scene(path: &Path, kind: &str) -> Result<String, Fault> {
+    let found = Found { path: path.to_owned(), label: path.display().to_string() };
+    let scene = Scene::load(&found)?;
+    let warnings = scene.warnings.iter().map(|warning| format!("\n  warning: {warning}"));
+    let polygons = scene.geometry.polygons.len();
+    Ok(format!("{kind}, {polygons} polygons{}", warnings.collect::<String>()))
 }

@@ -6,7 +6,7 @@ use crate::figures::Figures;
 use crate::sweep::Axis;
 
 /// The first columns, always these, in this order.
-pub const FIRST: [&str; 14] = [
+const FIRST: [&str; 14] = [
     "scene",
     "processors",
     "local_environments",
@@ -24,7 +24,7 @@ pub const FIRST: [&str; 14] = [
 ];
 
 /// The columns after those of the swept fields.
-pub const LAST: [&str; 13] = [
+const LAST: [&str; 13] = [
     "efficiency",
     "update_messages",
     "update_bytes",

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::fault::Fault;
+use crate::file;
 
 /// Published times and speed-ups, as the file writes them, by scene and processors.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -27,12 +28,9 @@ impl Comparison {
     /// # Errors
     /// If it cannot be read, a column is missing, or a cell is no number.
     pub fn read(path: &Path) -> Result<Comparison, Fault> {
-        let file = path.display().to_string();
-        let text = std::fs::read(path)
-            .map_err(|error| Fault::of_file(&file, format!("cannot be read: {error}")))?;
-        parse(&text).map_err(|(line, message)| {
+        parse(&file::read(path)?).map_err(|(line, message)| {
             let line = line.map(|line| line as usize);
-            Fault { line, ..Fault::of_file(&file, message) }
+            Fault { line, ..Fault::of_file(path.display(), message) }
         })
     }
 

@@ -6,6 +6,7 @@ use std::path::Path;
 use sha2::{Digest, Sha256};
 
 use crate::fault::Fault;
+use crate::file;
 
 /// SHA-256 of some bytes, in hexadecimal.
 pub fn sha256(bytes: &[u8]) -> String {
@@ -31,17 +32,8 @@ impl FileDigest {
     /// # Errors
     /// If it cannot be read.
     pub fn of(path: &Path, label: &str) -> Result<FileDigest, Fault> {
-        let bytes = std::fs::read(path)
-            .map_err(|error| Fault::of_file(path.display(), format!("cannot be read: {error}")))?;
-        Ok(FileDigest { label: label.replace('\\', "/"), sha256: sha256(&bytes) })
+        Ok(FileDigest { label: label.replace('\\', "/"), sha256: sha256(&file::read(path)?) })
     }
-}
-
-/// SHA-256 of this program's own file: saved runs of another build are not this one's. Where the
-/// program cannot read itself, its version must do.
-pub fn program() -> String {
-    let bytes = std::env::current_exe().and_then(std::fs::read);
-    bytes.map_or_else(|_| env!("CARGO_PKG_VERSION").to_owned(), |bytes| sha256(&bytes))
 }
 
 #[cfg(test)]

@@ -3,13 +3,16 @@
 
 use std::path::Path;
 
+use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 use serde_path_to_error::Segment;
 
 use crate::fault::{Fault, unknown};
+use crate::file;
 use crate::json;
 use crate::place::{Place, Step};
+use crate::schema;
 
 /// A JSON file, with `--set path=value` arguments laid over it.
 #[derive(Clone, Debug)]
@@ -28,10 +31,7 @@ impl Document {
     /// # Errors
     /// If it cannot be read, is no JSON, or names a key of an object twice.
     pub fn read(path: &Path) -> Result<Document, Fault> {
-        let file = path.display().to_string();
-        let text = std::fs::read_to_string(path)
-            .map_err(|error| Fault::of_file(&file, format!("cannot be read: {error}")))?;
-        Document::parse(file, text)
+        Document::parse(path.display().to_string(), file::read_text(path)?)
     }
 
     /// Takes a file's text; `file` is its name for messages.
@@ -115,12 +115,12 @@ impl Document {
         })
     }
 
-    /// Refuses the first key that `schema` does not know, with those that it does.
+    /// Refuses the first key that a `T` does not have, with those that it has.
     ///
     /// # Errors
     /// If there is such a key.
-    pub fn refuse_unknown_keys(&self, schema: &Value) -> Result<(), Fault> {
-        match unknown_key(schema, &self.value, &Place::default()) {
+    pub fn refuse_unknown_keys<T: JsonSchema>(&self) -> Result<(), Fault> {
+        match unknown_key(&schema::of::<T>(), &self.value, &Place::default()) {
             Some((place, message)) => Err(self.fault(&place, message)),
             None => Ok(()),
         }

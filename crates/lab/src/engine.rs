@@ -5,46 +5,24 @@ use std::sync::Arc;
 
 use multicomputer::Machine;
 use radiosity::{Hemisphere, HemisphereKind, Operation, PatchSize, Rgb};
-use virtwall::{Ending, KeptShots, Outcome, ProblemError, ProblemOptions, Rules};
+use serde::Serialize;
+use virtwall::{Ending, KeptShots, Outcome, Problem, ProblemError, ProblemOptions, Rules, Run};
 
 use crate::experiment::{self as fields, Experiment};
 use crate::fault::Fault;
 use crate::figures::{Energy, Figures};
-use crate::problem::Settings;
+use crate::file;
+use crate::settings::{Settings, WrongField};
 
-/// A scene in memory.
-pub struct Scene {
-    /// The geometry.
-    pub scene: radiosity::Scene,
-    /// What was mended on loading.
-    pub warnings: Vec<String>,
-}
-
-impl Scene {
-    /// Loads an OBJ file; `label` is what results call it.
-    ///
-    /// # Errors
-    /// What is wrong with the file or its materials, and where.
-    pub fn load(path: &Path, label: &str) -> Result<Scene, Fault> {
-        let (scene, warnings) = radiosity::load_obj(path).map_err(Fault::complete)?;
-        let warnings = warnings.iter().map(|warning| format!("{label}: {warning}")).collect();
-        Ok(Scene { scene, warnings })
-    }
-
-    /// Extents along x, y and z, metres.
-    pub fn extents(&self) -> [f64; 3] {
-        self.scene.bounds.size().to_array()
-    }
-
-    /// Sum of areas, m².
-    pub fn area(&self) -> f64 {
-        self.scene.area()
-    }
-
-    /// Polygons after cleaning.
-    pub fn polygons(&self) -> usize {
-        self.scene.polygons.len()
-    }
+/// What the programs run on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum On {
+    /// The simulated machine.
+    #[default]
+    Simulation,
+    /// Threads of this host: the same light, no virtual time.
+    Threads,
 }
 
 /// Reads a machine description and makes sure that it prices every operation.
@@ -53,9 +31,7 @@ impl Scene {
 /// What is wrong with the file, and where.
 pub fn load_machine(path: &Path) -> Result<Machine, Fault> {
     let file = path.display().to_string();
-    let text = std::fs::read_to_string(path)
-        .map_err(|error| Fault::of_file(&file, format!("cannot be read: {error}")))?;
-    let machine = Machine::from_json(&text, &file).map_err(Fault::complete)?;
+    let machine = Machine::from_json(&file::read_text(path)?, &file).map_err(Fault::complete)?;
     let priced = |operation: &&Operation| machine.processor.price(operation.name()).is_some();
     match Operation::ALL.iter().find(|operation| !priced(operation)) {
         None => Ok(machine),
@@ -66,129 +42,95 @@ pub fn load_machine(path: &Path) -> Result<Machine, Fault> {
     }
 }
 
-/// A scene, meshed and cut.
-pub struct Problem(Arc<virtwall::Problem>);
-
-impl Problem {
-    /// Meshes and cuts a scene.
-    ///
-    /// # Errors
-    /// The experiment's field at fault, and what is wrong with it.
-    pub fn new(scene: &Scene, settings: &Settings) -> Result<Problem, (&'static str, String)> {
-        let kind = match settings.directions {
-            fields::Directions::Fibonacci => HemisphereKind::Fibonacci,
-            fields::Directions::Hemicube => HemisphereKind::Hemicube,
-            fields::Directions::Polar => HemisphereKind::Polar,
-            fields::Directions::Concentric => HemisphereKind::Concentric,
+/// Meshes and cuts a scene.
+///
+/// # Errors
+/// The experiment's field at fault, and what is wrong with it.
+pub fn problem(scene: &radiosity::Scene, settings: &Settings) -> Result<Arc<Problem>, WrongField> {
+    let kind = match settings.directions {
+        fields::Directions::Fibonacci => HemisphereKind::Fibonacci,
+        fields::Directions::Hemicube => HemisphereKind::Hemicube,
+        fields::Directions::Polar => HemisphereKind::Polar,
+        fields::Directions::Concentric => HemisphereKind::Concentric,
+    };
+    let hemisphere = Hemisphere::new(kind, settings.pixels, settings.rotated)
+        .map_err(|error| ("hemisphere.pixels", error.to_string()))?;
+    let (reflector, emitter) = (settings.patch_size, settings.emitter_patch_size);
+    let options = ProblemOptions {
+        patch_size: PatchSize { reflector, emitter },
+        cells: settings.cells.0,
+        cut: settings.cut.0,
+        hemisphere,
+    };
+    Problem::new(scene.clone(), options).map(Arc::new).map_err(|error| {
+        let field = match error {
+            ProblemError::Cells(_) => "cells",
+            ProblemError::Cut { .. } => "cut",
+            ProblemError::PatchSize(..) => "patch_size",
         };
-        let hemisphere = Hemisphere::new(kind, settings.pixels, settings.rotated)
-            .map_err(|error| ("hemisphere.pixels", error.to_string()))?;
-        let (reflector, emitter) = (settings.patch_size, settings.emitter_patch_size);
-        let options = ProblemOptions {
-            patch_size: PatchSize { reflector, emitter },
-            cells: settings.cells.0,
-            cut: settings.cut.0,
-            hemisphere,
-        };
-        match virtwall::Problem::new(scene.scene.clone(), options) {
-            Ok(problem) => Ok(Problem(Arc::new(problem))),
-            Err(error) => {
-                let field = match error {
-                    ProblemError::Cells(_) => "cells",
-                    ProblemError::Cut { .. } => "cut",
-                    ProblemError::PatchSize(..) => "patch_size",
-                };
-                Err((field, error.to_string()))
-            }
-        }
-    }
+        (field, error.to_string())
+    })
+}
 
-    /// Patches of all local environments.
-    pub fn patches(&self) -> usize {
-        self.0.patches()
+/// The run of a problem at one point of an experiment; `on_shot` is called after every shot.
+pub fn run(
+    problem: &Arc<Problem>,
+    point: &Experiment,
+    kept: &Arc<KeptShots>,
+    on_shot: Arc<dyn Fn() + Send + Sync>,
+) -> Run {
+    Run {
+        problem: Arc::clone(problem),
+        processors: point.processors as usize,
+        rules: rules(point),
+        kept: Arc::clone(kept),
+        on_shot,
     }
 }
 
-/// Shots kept between the runs of one problem.
-#[derive(Clone)]
-pub struct Kept(Arc<KeptShots>);
-
-impl Kept {
-    /// Keeps at most so many bytes of them.
-    pub fn new(bytes: usize) -> Kept {
-        Kept(Arc::new(KeptShots::new(bytes)))
-    }
+/// Runs to the end, on the simulated `machine` or on threads.
+///
+/// # Errors
+/// Why the run did not end.
+pub fn carry_out(run: &Run, on: On, machine: &Machine) -> Result<Figures, String> {
+    let outcome = match on {
+        On::Simulation => virtwall::simulate(run, machine),
+        On::Threads => virtwall::run_on_threads(run),
+    };
+    let outcome = outcome.map_err(|error| error.to_string())?;
+    Ok(figures(&run.problem, &outcome, on == On::Simulation))
 }
 
-/// One run, ready to go.
-pub struct Run(virtwall::Run);
-
-impl Run {
-    /// The run of a problem at one point of an experiment; `on_shot` is called after every shot.
-    pub fn new(
-        problem: &Problem,
-        point: &Experiment,
-        kept: &Kept,
-        on_shot: Arc<dyn Fn() + Send + Sync>,
-    ) -> Run {
-        Run(virtwall::Run {
-            problem: Arc::clone(&problem.0),
-            processors: point.processors as usize,
-            rules: rules(point),
-            kept: Arc::clone(&kept.0),
-            on_shot,
-        })
-    }
-
-    /// Runs on a simulated machine.
-    ///
-    /// # Errors
-    /// Why the run did not end.
-    pub fn simulate(&self, machine: &Machine) -> Result<Figures, String> {
-        let outcome = virtwall::simulate(&self.0, machine).map_err(|error| error.to_string())?;
-        Ok(self.figures(&outcome, true))
-    }
-
-    /// Runs on threads of this host.
-    ///
-    /// # Errors
-    /// Why the run did not end.
-    pub fn on_threads(&self) -> Result<Figures, String> {
-        let outcome = virtwall::run_on_threads(&self.0).map_err(|error| error.to_string())?;
-        Ok(self.figures(&outcome, false))
-    }
-
-    /// The outcome's figures; times only if they are virtual.
-    fn figures(&self, outcome: &Outcome, virtual_time: bool) -> Figures {
-        let energy = &outcome.energy;
-        let share = |part: Rgb| match energy.emitted.element_sum() {
-            0.0 => 0.0,
-            emitted => part.element_sum() / emitted,
-        };
-        Figures {
-            time_s: virtual_time.then(|| outcome.time.as_seconds_f64()),
-            local_shots: outcome.local_shots,
-            received_shots: outcome.received_shots,
-            messages: outcome.messages,
-            message_bytes: outcome.message_bytes,
-            update_messages: outcome.update_messages,
-            update_bytes: outcome.update_bytes,
-            control_messages: outcome.control_messages,
-            busy_fraction: virtual_time.then(|| outcome.busy_fraction()),
-            energy_error: energy.error(),
-            energy: Energy {
-                absorbed: share(energy.absorbed),
-                unshot: share(energy.unshot),
-                in_transit: share(energy.in_transit),
-                escaped: share(energy.escaped),
-            },
-            too_early: match outcome.ending {
-                Ending::Agreed => None,
-                Ending::TooEarly { lost } => Some(lost),
-            },
-            patches: self.0.problem.patches() as u64,
-            work: outcome.work.counts().map(|(op, n)| (op.name().to_owned(), n)).collect(),
-        }
+/// The outcome's figures; times only if they are virtual.
+fn figures(problem: &Problem, outcome: &Outcome, virtual_time: bool) -> Figures {
+    let energy = &outcome.energy;
+    let share = |part: Rgb| match energy.emitted.element_sum() {
+        0.0 => 0.0,
+        emitted => part.element_sum() / emitted,
+    };
+    Figures {
+        time_s: virtual_time.then(|| outcome.time.as_seconds_f64()),
+        local_shots: outcome.local_shots,
+        received_shots: outcome.received_shots,
+        messages: outcome.messages,
+        message_bytes: outcome.message_bytes,
+        update_messages: outcome.update_messages,
+        update_bytes: outcome.update_bytes,
+        control_messages: outcome.control_messages,
+        busy_fraction: virtual_time.then(|| outcome.busy_fraction()),
+        energy_error: energy.error(),
+        energy: Energy {
+            absorbed: share(energy.absorbed),
+            unshot: share(energy.unshot),
+            in_transit: share(energy.in_transit),
+            escaped: share(energy.escaped),
+        },
+        too_early: match outcome.ending {
+            Ending::Agreed => None,
+            Ending::TooEarly { lost } => Some(lost),
+        },
+        patches: problem.patches() as u64,
+        work: outcome.work.counts().map(|(op, n)| (op.name().to_owned(), n)).collect(),
     }
 }
 

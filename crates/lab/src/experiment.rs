@@ -2,8 +2,20 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
 
 use crate::quantity::{Fraction, Length, Period, Triple};
+use crate::schema;
+
+/// Fields of an experiment file in which a list is no sweep.
+pub const UNSWEPT: [&str; 4] = ["$schema", "title", "compare_with", "plots"];
+
+/// The schema of an experiment file.
+pub fn experiment_schema() -> Value {
+    let mut schema = schema::of::<Experiment>();
+    schema::sweepable(&mut schema, &UNSWEPT);
+    schema
+}
 
 /// An experiment: the runs of a scene on a machine, and what to draw of them.
 ///
@@ -92,28 +104,10 @@ pub struct Experiment {
 impl Experiment {
     /// A scene by itself: one processor, one local environment, all else by default.
     pub fn of_one_environment(scene: &str) -> Experiment {
-        Experiment {
-            schema: None,
-            title: String::new(),
-            scene: scene.to_owned(),
-            machine: default_machine(),
-            processors: 1,
-            local_environments: 1,
-            cut: None,
-            cells: None,
-            patch_size: None,
-            emitter_patch_size: None,
-            hemisphere: Hemisphere::default(),
-            selection: Selection::default(),
-            ties: Ties::default(),
-            stop: Stop::default(),
-            merge_masks: false,
-            mapping: Mapping::default(),
-            radiosity_updates: yes(),
-            seed: default_seed(),
-            compare_with: None,
-            plots: Vec::new(),
-        }
+        let fields = json!({
+            "title": "", "scene": scene, "processors": 1, "local_environments": 1,
+        });
+        serde_json::from_value(fields).expect("all fields that have no default are there")
     }
 }
 

@@ -14,13 +14,6 @@ pub enum Shelf {
 }
 
 impl Shelf {
-    fn folder(self) -> &'static str {
-        match self {
-            Shelf::Scenes => "scenes",
-            Shelf::Machines => "machines",
-        }
-    }
-
     fn noun(self) -> &'static str {
         match self {
             Shelf::Scenes => "scene",
@@ -56,12 +49,13 @@ pub fn find(folder: &Path, shelf: Shelf, name: &str) -> Result<Found, String> {
                 format!("\"{name}\": no such file; expected a path from {}", from.display())
             });
     }
-    let shelves = [beside(folder).join(shelf.folder()), PathBuf::from(shelf.folder())];
+    let lies_in = format!("{}s", shelf.noun());
+    let shelves = [beside(folder).join(&lies_in), PathBuf::from(&lies_in)];
     let file = format!("{name}.json");
     if !name.is_empty()
         && let Some(path) = shelves.iter().map(|s| s.join(&file)).find(|path| path.is_file())
     {
-        return Ok(Found { path, label: format!("{}/{file}", shelf.folder()) });
+        return Ok(Found { path, label: format!("{lies_in}/{file}") });
     }
     let mut known: Vec<String> = shelves.iter().flat_map(|shelf| names(shelf)).collect();
     known.sort();

@@ -1,5 +1,6 @@
 //! JSON text as a value, no key twice, and the line on which a part of it stands.
 
+use std::collections::BTreeMap;
 use std::fmt;
 
 use serde::Deserialize;
@@ -23,8 +24,8 @@ pub fn line_of(text: &str, place: &Place) -> Option<usize> {
     for step in &place.0 {
         raw = match step {
             Step::Key(key) => {
-                let fields: Fields = serde_json::from_str(raw.get()).ok()?;
-                fields.0.into_iter().find(|(name, _)| name == key)?.1
+                let fields: BTreeMap<String, &RawValue> = serde_json::from_str(raw.get()).ok()?;
+                fields.get(key)?
             }
             Step::Item(index) => {
                 let items: Vec<&RawValue> = serde_json::from_str(raw.get()).ok()?;
@@ -97,33 +98,6 @@ impl<'de> Visitor<'de> for StrictVisitor {
             object.insert(key, value);
         }
         Ok(Value::Object(object))
-    }
-}
-
-/// An object's keys and the text of its values.
-struct Fields<'a>(Vec<(String, &'a RawValue)>);
-
-impl<'de: 'a, 'a> Deserialize<'de> for Fields<'a> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Fields<'a>, D::Error> {
-        struct FieldsVisitor;
-
-        impl<'de> Visitor<'de> for FieldsVisitor {
-            type Value = Vec<(String, &'de RawValue)>;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("an object")
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
-                let mut fields = Vec::new();
-                while let Some(field) = map.next_entry()? {
-                    fields.push(field);
-                }
-                Ok(fields)
-            }
-        }
-
-        deserializer.deserialize_map(FieldsVisitor).map(Fields)
     }
 }
 

@@ -5,7 +5,8 @@ use std::path::Path;
 use crate::experiment::Experiment;
 use crate::fault::Fault;
 use crate::find::{Shelf, find};
-use crate::problem::{Scene, Settings};
+use crate::scene::Scene;
+use crate::settings::Settings;
 
 /// A scene, and how its own description, if it has one, says to mesh it.
 pub struct OpenScene {
@@ -36,8 +37,8 @@ impl OpenScene {
             .map_err(|(_, message)| Fault::of_file(&found.label, message))?;
         Ok(OpenScene {
             title: scene.file.and_then(|file| file.title),
-            scene: scene.geometry.scene,
-            warnings: scene.geometry.warnings,
+            scene: scene.geometry,
+            warnings: scene.warnings,
             patch_size: settings.patch_size,
             emitter_patch_size: settings.emitter_patch_size,
             cells: settings.cells.0,

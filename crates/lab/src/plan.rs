@@ -1,21 +1,18 @@
 //! An experiment file read, expanded and validated, once, at the door: nothing in a plan can be
 //! refused later.
 
-use std::path::Path;
+use std::path::PathBuf;
+use std::sync::Arc;
 
 use multicomputer::Machine;
 use serde_json::Value;
+use virtwall::Problem;
 
 use crate::comparison::Comparison;
 use crate::digest::FileDigest;
-use crate::document::Document;
-use crate::engine::Problem;
 use crate::experiment::{Experiment, Plot};
-use crate::fault::Fault;
-use crate::planner::Planner;
-use crate::problem::Settings;
-use crate::schema::experiment_schema;
-use crate::sweep::{Axis, Sweep};
+use crate::settings::Settings;
+use crate::sweep::Axis;
 
 /// All that an experiment will do.
 pub struct Plan {
@@ -60,7 +57,7 @@ pub struct Prepared {
     /// How.
     pub settings: Settings,
     /// The problem.
-    pub problem: Problem,
+    pub problem: Arc<Problem>,
     /// The scene's files.
     pub digests: Vec<FileDigest>,
 }
@@ -69,23 +66,8 @@ pub struct Prepared {
 pub struct Equipment {
     /// The machine.
     pub machine: Machine,
+    /// Where its file is.
+    pub path: PathBuf,
     /// Its file.
     pub digest: FileDigest,
-}
-
-impl Plan {
-    /// Reads an experiment file, lays `--set path=value` arguments over it, and validates all of
-    /// it, the scenes and machines that it names included.
-    ///
-    /// # Errors
-    /// The first fault met. Nothing was written.
-    pub fn read(path: &Path, arguments: &[String]) -> Result<Plan, Fault> {
-        let mut document = Document::read(path)?;
-        for argument in arguments {
-            document.set(argument)?;
-        }
-        document.refuse_unknown_keys(&experiment_schema())?;
-        let sweep = Sweep::of(&document)?;
-        Planner::new(path, &document, &sweep).plan()
-    }
 }

@@ -9,51 +9,59 @@ use crate::columns;
 use crate::comparison::Comparison;
 use crate::digest::FileDigest;
 use crate::document::Document;
-use crate::engine::{self, Problem};
+use crate::engine;
 use crate::experiment::{Experiment, Plot};
 use crate::fault::{Fault, unknown};
+use crate::file::{PLAIN, is_plain};
 use crate::find::{Shelf, find};
-use crate::name::{PLAIN, is_plain};
 use crate::place::Place;
 use crate::plan::{Equipment, Plan, Prepared, Run};
-use crate::problem::{Scene, Settings};
+use crate::scene::Scene;
+use crate::settings::Settings;
 use crate::sweep::{Point, Sweep};
 
 /// More local environments can only be a slip.
 const MOST_ENVIRONMENTS: u32 = 65_536;
 
+impl Plan {
+    /// Reads an experiment file, lays `--set path=value` arguments over it, and validates all of
+    /// it, the scenes and machines that it names included.
+    ///
+    /// # Errors
+    /// The first fault met. Nothing was written.
+    pub fn read(path: &Path, arguments: &[String]) -> Result<Plan, Fault> {
+        let mut document = Document::read(path)?;
+        for argument in arguments {
+            document.set(argument)?;
+        }
+        document.refuse_unknown_keys::<Experiment>()?;
+        let planner = Planner {
+            path,
+            folder: path.parent().unwrap_or(Path::new("")),
+            sweep: &Sweep::of(&document)?,
+            document: &document,
+            scenes: BTreeMap::new(),
+            machines: Vec::new(),
+            problems: Vec::new(),
+        };
+        planner.plan()
+    }
+}
+
 /// What planning has read so far.
-pub struct Planner<'a> {
+struct Planner<'a> {
     path: &'a Path,
     folder: &'a Path,
     document: &'a Document,
     sweep: &'a Sweep,
     scenes: BTreeMap<PathBuf, Scene>,
-    machine_paths: Vec<PathBuf>,
     machines: Vec<Equipment>,
     problems: Vec<Prepared>,
 }
 
-impl<'a> Planner<'a> {
-    /// A planner for the experiment file at `path`.
-    pub fn new(path: &'a Path, document: &'a Document, sweep: &'a Sweep) -> Planner<'a> {
-        Planner {
-            path,
-            folder: path.parent().unwrap_or(Path::new("")),
-            document,
-            sweep,
-            scenes: BTreeMap::new(),
-            machine_paths: Vec::new(),
-            machines: Vec::new(),
-            problems: Vec::new(),
-        }
-    }
-
+impl Planner<'_> {
     /// Makes the plan.
-    ///
-    /// # Errors
-    /// The first fault met.
-    pub fn plan(mut self) -> Result<Plan, Fault> {
+    fn plan(mut self) -> Result<Plan, Fault> {
         let name = self.name()?;
         let runs = self.sweep.points.iter().map(|point| self.run(point));
         let runs = runs.collect::<Result<Vec<Run>, Fault>>()?;
@@ -69,7 +77,7 @@ impl<'a> Planner<'a> {
         files.extend(compared);
         files.sort();
         files.dedup();
-        let warnings = self.scenes.values().flat_map(|s| s.geometry.warnings.clone()).collect();
+        let warnings = self.scenes.values().flat_map(|s| s.warnings.clone()).collect();
         Ok(Plan {
             name,
             title,
@@ -99,9 +107,7 @@ impl<'a> Planner<'a> {
     fn run(&mut self, point: &Point) -> Result<Run, Fault> {
         let locate = |place| self.sweep.place_in_file(point, place);
         let typed: Experiment = self.document.typed(&point.value, locate)?;
-        let refuse = |field: &str, message: String| {
-            Err(self.document.fault(&locate(Place::of(field)), message))
-        };
+        let refuse = |field, message: String| Err(self.fault(point, field, message));
         let (processors, environments) = (typed.processors, typed.local_environments);
         if !(1..=MOST_ENVIRONMENTS).contains(&environments) {
             let message = format!("{environments}; expected 1 to {MOST_ENVIRONMENTS}");
@@ -114,45 +120,52 @@ impl<'a> Planner<'a> {
             let message = format!("{processors} processors for {environments} local environments");
             return refuse("processors", message + "; expected at most one for each");
         }
-        let machine =
-            self.machine(&typed.machine).or_else(|error| error.at(self, point, "machine"))?;
+        let machine = self.machine(point, &typed)?;
         let nodes = self.machines[machine].machine.compute_nodes();
         if processors as usize > nodes {
-            let message = format!("{processors} processors, but \"{}\" has {nodes}", typed.machine);
-            return refuse("processors", message + " compute nodes; expected at most that");
+            let message = format!(
+                "{processors} processors, but \"{}\" has {nodes} compute nodes; expected at most that",
+                typed.machine
+            );
+            return Err(self.fault(point, "processors", message));
         }
         let problem = self.problem(point, &typed)?;
         Ok(Run { index: point.index.clone(), point: typed, problem, machine })
     }
 
-    /// The machine of that name or path, loaded once.
-    fn machine(&mut self, name: &str) -> Result<usize, Trouble> {
-        let found = find(self.folder, Shelf::Machines, name)?;
-        if let Some(loaded) = self.machine_paths.iter().position(|path| *path == found.path) {
+    /// A fault of a field at one point of the sweep.
+    fn fault(&self, point: &Point, field: &str, message: String) -> Fault {
+        self.document.fault(&self.sweep.place_in_file(point, Place::of(field)), message)
+    }
+
+    /// The machine of this point, loaded once.
+    fn machine(&mut self, point: &Point, typed: &Experiment) -> Result<usize, Fault> {
+        let found = find(self.folder, Shelf::Machines, &typed.machine)
+            .map_err(|message| self.fault(point, "machine", message))?;
+        if let Some(loaded) = self.machines.iter().position(|m| m.path == found.path) {
             return Ok(loaded);
         }
         let digest = FileDigest::of(&found.path, &found.label)?;
         let machine = engine::load_machine(&found.path)?;
-        self.machine_paths.push(found.path);
-        self.machines.push(Equipment { machine, digest });
+        self.machines.push(Equipment { machine, path: found.path, digest });
         Ok(self.machines.len() - 1)
     }
 
     /// The scene of this point, meshed and cut as it says, each such problem built once.
     fn problem(&mut self, point: &Point, typed: &Experiment) -> Result<usize, Fault> {
-        let found = find(self.folder, Shelf::Scenes, &typed.scene);
-        let found = found.or_else(|message| Trouble::Here(message).at(self, point, "scene"))?;
+        let found = find(self.folder, Shelf::Scenes, &typed.scene)
+            .map_err(|message| self.fault(point, "scene", message))?;
         if !self.scenes.contains_key(&found.path) {
             self.scenes.insert(found.path.clone(), Scene::load(&found)?);
         }
         let scene = &self.scenes[&found.path];
         let settings = Settings::of(typed, scene)
-            .or_else(|(field, message)| Trouble::Here(message).at(self, point, field))?;
+            .map_err(|(field, message)| self.fault(point, field, message))?;
         if let Some(built) = self.problems.iter().position(|p| p.settings == settings) {
             return Ok(built);
         }
-        let problem = Problem::new(&scene.geometry, &settings)
-            .or_else(|(field, message)| Trouble::Here(message).at(self, point, field))?;
+        let problem = engine::problem(&scene.geometry, &settings)
+            .map_err(|(field, message)| self.fault(point, field, message))?;
         let digests = scene.digests.clone();
         self.problems.push(Prepared { settings, problem, digests });
         Ok(self.problems.len() - 1)
@@ -217,35 +230,5 @@ fn fill(value: &mut Value, defaults: Value) {
             Some(field) => fill(field, default),
             None => _ = fields.insert(name, default),
         }
-    }
-}
-
-/// Something wrong with what a field names: told at the field, or in the file that it names.
-enum Trouble {
-    Here(String),
-    There(Fault),
-}
-
-impl Trouble {
-    fn at<T>(self, planner: &Planner, point: &Point, field: &str) -> Result<T, Fault> {
-        Err(match self {
-            Trouble::There(fault) => fault,
-            Trouble::Here(message) => {
-                let place = planner.sweep.place_in_file(point, Place::of(field));
-                planner.document.fault(&place, message)
-            }
-        })
-    }
-}
-
-impl From<String> for Trouble {
-    fn from(message: String) -> Trouble {
-        Trouble::Here(message)
-    }
-}
-
-impl From<Fault> for Trouble {
-    fn from(fault: Fault) -> Trouble {
-        Trouble::There(fault)
     }
 }

@@ -7,6 +7,7 @@ use std::marker::PhantomData;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Deserializer, Error};
 use serde::{Deserialize, Serialize, Serializer};
+use serde_json::Value;
 
 use multicomputer::quantity::{self, Dimension};
 
@@ -102,8 +103,14 @@ impl<K: Kind> Quantity<K> {
 
 impl<'de, K: Kind> Deserialize<'de> for Quantity<K> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Quantity<K>, D::Error> {
-        let text = text_with_unit::<D>(deserializer, K::NAME, K::EXAMPLE)?;
-        Quantity::parse(&text).map_err(D::Error::custom)
+        match Value::deserialize(deserializer)? {
+            Value::String(text) => Quantity::parse(&text).map_err(D::Error::custom),
+            other => Err(D::Error::custom(format!(
+                "found {other} without a unit; expected {} as text, such as \"{}\"",
+                K::NAME,
+                K::EXAMPLE
+            ))),
+        }
     }
 }
 
@@ -176,19 +183,5 @@ impl JsonSchema for Triple {
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         let counts = "^[1-9][0-9]*x[1-9][0-9]*x[1-9][0-9]*$";
         json_schema!({ "type": "string", "pattern": counts, "examples": ["14x4x1"] })
-    }
-}
-
-/// A string; a bare number is told that it lacks its unit.
-fn text_with_unit<'de, D: Deserializer<'de>>(
-    deserializer: D,
-    name: &str,
-    example: &str,
-) -> Result<String, D::Error> {
-    match serde_json::Value::deserialize(deserializer)? {
-        serde_json::Value::String(text) => Ok(text),
-        other => Err(D::Error::custom(format!(
-            "found {other} without a unit; expected {name} as text, such as \"{example}\""
-        ))),
     }
 }

@@ -1,7 +1,10 @@
 //! Which run is next: runs of one problem share the shots that are kept, so that workers had
 //! better share problems out among themselves, and the largest go first.
 
-use crate::engine::Kept;
+use std::sync::Arc;
+
+use virtwall::KeptShots;
+
 use crate::plan::Plan;
 
 /// Runs that wait, by problem.
@@ -17,7 +20,7 @@ struct Waiting {
     /// Runs being worked on.
     active: usize,
     patches: usize,
-    kept: Option<Kept>,
+    kept: Option<Arc<KeptShots>>,
 }
 
 /// A run to be worked on.
@@ -27,7 +30,7 @@ pub struct Task {
     /// Index into [`Plan::problems`].
     pub problem: usize,
     /// Shots kept from other runs of the same problem.
-    pub kept: Kept,
+    pub kept: Arc<KeptShots>,
 }
 
 impl Queue {
@@ -51,8 +54,8 @@ impl Queue {
             waiting.min_by_key(|(_, p)| (p.active, p.kept.is_none(), usize::MAX - p.patches))?;
         let run = problem.runs.pop()?;
         problem.active += 1;
-        let kept = problem.kept.get_or_insert_with(|| Kept::new(self.budget));
-        Some(Task { run, problem: index, kept: kept.clone() })
+        let kept = problem.kept.get_or_insert_with(|| Arc::new(KeptShots::new(self.budget)));
+        Some(Task { run, problem: index, kept: Arc::clone(kept) })
     }
 
     /// Takes note that a run has ended; a problem's kept shots go with its last run.

@@ -5,77 +5,72 @@ use std::fmt::Write;
 use serde_json::Value;
 
 use crate::columns;
-use crate::console::lines;
-use crate::results::Results;
-use crate::schema::experiment_schema;
+use crate::console::{Line, lines};
+use crate::experiment::experiment_schema;
 use crate::summary::Summary;
 use crate::table::Table;
 
 const STYLE: &str = include_str!("report.css");
 
-/// The page. `drawings` are its plots, as SVG.
-pub fn html(results: &Results, drawings: &[String]) -> String {
-    let manifest = &results.manifest;
+/// How to read the column of ratios, where there is something to compare with.
+const RATIOS: &str = "<p>Ratios are simulated over paper: of speed-ups, and of times (t) on one \
+                      processor.</p>\n";
+
+/// The page on the results of `manifest`, whose runs are `runs`, swept over the fields `sweeps`;
+/// `drawings` are its plots, as SVG.
+pub fn html(manifest: &Value, runs: &Table, sweeps: &[String], drawings: &[String]) -> String {
     let title = escape(&columns::cell(&manifest["title"]));
-    let mut body = String::new();
-    let mut add = |part: String| body.push_str(&part);
-    add(format!("<h1>{title}</h1>\n"));
-    add(lead(results));
-    add(summary(&results.table));
-    add(warnings(results));
-    drawings.iter().for_each(|svg| add(format!("<figure>{svg}</figure>\n")));
-    add("<h2>Runs</h2>\n".to_owned());
-    if !Summary::of(&results.table).lines().is_empty() {
-        add("<p>Ratios are simulated over paper: of speed-ups, and of times (t) on one processor.\
-             </p>\n"
-            .to_owned());
-    }
-    add(runs(results));
-    let all = table(&shown_columns(results), &results.table);
-    add(format!("<details><summary>All columns</summary>\n{all}</details>\n"));
-    add("<h2>Choices</h2>\n<p>What the paper leaves open, and what this experiment takes.</p>\n"
-        .to_owned());
-    add(choices(manifest));
-    add("<h2>Scenes</h2>\n".to_owned());
-    add(problems(manifest));
-    add("<h2>Configuration</h2>\n<p>Every field, defaults filled in. It is an experiment file \
-         that gives these results again.</p>\n"
-        .to_owned());
+    let lead = lead(manifest, runs);
+    let compared = Summary::of(runs).lines();
+    let summary =
+        compared.iter().map(|line| format!("<p class=\"summary\">{}</p>\n", escape(line)));
+    let summary: String = summary.collect();
+    let warnings = warnings(manifest, runs);
+    let figures = drawings.iter().map(|svg| format!("<figure>{svg}</figure>\n"));
+    let figures: String = figures.collect();
+    let ratios = if compared.is_empty() { "" } else { RATIOS };
+    let grouped = grouped(&lines(runs, sweeps));
+    let all = table(&shown_columns(runs), runs);
+    let choices = choices(manifest);
+    let problems = problems(manifest);
     let experiment = serde_json::to_string_pretty(&manifest["experiment"]).unwrap_or_default();
-    add(format!("<pre>{}</pre>\n", escape(&experiment)));
-    add("<h2>Files</h2>\n".to_owned());
-    add(files(manifest));
+    let experiment = escape(&experiment);
+    let files = files(manifest);
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width\">\n<title>{title}</title>\n\
-         <style>\n{STYLE}</style>\n</head>\n<body>\n{body}</body>\n</html>\n"
+         <style>\n{STYLE}</style>\n</head>\n<body>\n\
+         <h1>{title}</h1>\n{lead}{summary}{warnings}{figures}\
+         <h2>Runs</h2>\n{ratios}{grouped}\
+         <details><summary>All columns</summary>\n{all}</details>\n\
+         <h2>Choices</h2>\n\
+         <p>What the paper leaves open, and what this experiment takes.</p>\n{choices}\
+         <h2>Scenes</h2>\n{problems}\
+         <h2>Configuration</h2>\n<p>Every field, defaults filled in. It is an experiment file \
+         that gives these results again.</p>\n<pre>{experiment}</pre>\n\
+         <h2>Files</h2>\n{files}\
+         </body>\n</html>\n"
     )
 }
 
-fn lead(results: &Results) -> String {
-    let manifest = &results.manifest;
+fn lead(manifest: &Value, runs: &Table) -> String {
     let on = match manifest["on"].as_str() {
         Some("threads") => "on this host's threads",
         _ => "on a simulated machine; times are virtual",
     };
-    let runs = results.table.rows.len();
+    let runs = runs.rows.len();
     let version = escape(&columns::cell(&manifest["virtwall"]));
     let seed = escape(&columns::cell(&manifest["seed"]));
     let plural = if runs == 1 { "" } else { "s" };
     format!("<p class=\"lead\">{runs} run{plural} {on}. Virtwall {version}, seed {seed}.</p>\n")
 }
 
-fn summary(table: &Table) -> String {
-    let lines = Summary::of(table).lines();
-    lines.iter().map(|line| format!("<p class=\"summary\">{}</p>\n", escape(line))).collect()
-}
-
-fn warnings(results: &Results) -> String {
-    let mut items: Vec<String> = results.manifest["warnings"]
+fn warnings(manifest: &Value, runs: &Table) -> String {
+    let mut items: Vec<String> = manifest["warnings"]
         .as_array()
         .map_or(Vec::new(), |warnings| warnings.iter().map(columns::cell).collect());
-    for row in &results.table.rows {
-        let cell = |column| results.table.cell(row, column);
+    for row in &runs.rows {
+        let cell = |column| runs.cell(row, column);
         let run = format!("{} on {} processors", cell("scene"), cell("processors"));
         match cell("ending") {
             "failed" => items.push(format!("{run} failed: {}", cell("failure"))),
@@ -94,11 +89,10 @@ fn warnings(results: &Results) -> String {
 }
 
 /// The runs in the manner of Table 1, a body of rows for each scene.
-fn runs(results: &Results) -> String {
-    let lines = lines(&results.table, &results.sweeps());
+fn grouped(lines: &[Line]) -> String {
     let mut rows = String::new();
     let mut group = None;
-    for line in &lines {
+    for line in lines {
         if group != Some(&line.group) {
             let name = escape(&line.group);
             rows += &format!("<tr class=\"group\"><th colspan=\"7\">{name}</th></tr>\n");
@@ -118,8 +112,7 @@ fn runs(results: &Results) -> String {
 }
 
 /// The columns of runs.csv that hold something, but for those too long for a page.
-fn shown_columns(results: &Results) -> Vec<&str> {
-    let table = &results.table;
+fn shown_columns(table: &Table) -> Vec<&str> {
     let holds = |column: &&str| table.rows.iter().any(|row| !table.cell(row, column).is_empty());
     let names = table.columns.iter().map(String::as_str);
     names.filter(|name| !["operations", "failure"].contains(name)).filter(holds).collect()

@@ -12,8 +12,7 @@ use crate::digest::sha256;
 use crate::document::Document;
 use crate::experiment::Plot;
 use crate::fault::Fault;
-use crate::name::{PLAIN, is_plain};
-use crate::output;
+use crate::file::{self, PLAIN, is_plain};
 use crate::place::Place;
 use crate::plan::Plan;
 use crate::report;
@@ -52,8 +51,7 @@ impl Results {
         }
         let document = Document::read(&path)?;
         let csv = folder.join("runs.csv");
-        let bytes = fs::read(&csv)
-            .map_err(|error| Fault::of_file(csv.display(), format!("cannot be read: {error}")))?;
+        let bytes = file::read(&csv)?;
         if document.value["runs_csv_sha256"] != Value::String(sha256(&bytes)) {
             let message =
                 "does not have the digest that manifest.json states; expected it unchanged";
@@ -67,7 +65,8 @@ impl Results {
                 return Err(document.fault(&place, message));
             }
         }
-        Ok(Results { table: Table::read(&csv)?, manifest: document.value })
+        let table = Table::from_csv(&bytes).map_err(|error| file::unreadable(&csv, error))?;
+        Ok(Results { table, manifest: document.value })
     }
 
     /// Writes all files of results, each whole, and then forgets the runs saved one by one,
@@ -77,8 +76,8 @@ impl Results {
     /// If a file cannot be written.
     pub fn write(&self, out: &Path) -> io::Result<()> {
         fs::create_dir_all(out)?;
-        output::write(&out.join("runs.csv"), &self.table.to_csv()?)?;
-        output::write(&out.join("manifest.json"), pretty(&self.manifest)?.as_bytes())?;
+        file::write(&out.join("runs.csv"), &self.table.to_csv()?)?;
+        file::write(&out.join("manifest.json"), pretty(&self.manifest)?.as_bytes())?;
         self.draw(out)?;
         if self.failures() == 0 {
             Saved::in_folder(out).forget()?;
@@ -91,17 +90,18 @@ impl Results {
     /// # Errors
     /// If a file cannot be written.
     pub fn draw(&self, out: &Path) -> io::Result<Vec<String>> {
+        let sweeps = self.sweeps();
         let mut names = Vec::new();
         let mut drawings = Vec::new();
         for plot in self.plots() {
-            let svg = chart::svg(&self.table, &self.sweeps(), &plot);
+            let svg = chart::svg(&self.table, &sweeps, &plot);
             let name = format!("{}.svg", plot.stem());
-            output::write(&out.join(&name), svg.as_bytes())?;
+            file::write(&out.join(&name), svg.as_bytes())?;
             names.push(name);
             drawings.push(svg);
         }
-        let html = report::html(self, &drawings);
-        output::write(&out.join("report.html"), html.as_bytes())?;
+        let html = report::html(&self.manifest, &self.table, &sweeps, &drawings);
+        file::write(&out.join("report.html"), html.as_bytes())?;
         names.push("report.html".to_owned());
         Ok(names)
     }
@@ -164,7 +164,7 @@ pub fn write_host_times(
     threads: usize,
 ) -> io::Result<()> {
     let times = json!({ "threads": threads, "seconds": seconds, "runs": endings.host_seconds });
-    output::write(&out.join("host-times.json"), pretty(&times)?.as_bytes())
+    file::write(&out.join("host-times.json"), pretty(&times)?.as_bytes())
 }
 
 fn pretty(value: &Value) -> io::Result<String> {

@@ -4,9 +4,7 @@ use std::io;
 use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use serde::Serialize;
-
-use crate::engine;
+use crate::engine::{self, On};
 use crate::figures::Figures;
 use crate::host_clock::HostClock;
 use crate::plan::Plan;
@@ -15,17 +13,6 @@ use crate::saved::Saved;
 
 /// Host memory for shots kept between runs, shared out among the problems worked on at a time.
 const KEPT_BYTES: usize = 2 << 30;
-
-/// What the programs run on.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum On {
-    /// The simulated machine.
-    #[default]
-    Simulation,
-    /// Threads of this host: the same light, no virtual time.
-    Threads,
-}
 
 /// How a plan is carried out. None of it changes what a simulated run finds.
 #[derive(Clone, Copy, Debug)]
@@ -89,13 +76,15 @@ pub fn carry_out(plan: &Plan, out: &Path, options: Options, watch: Watch) -> io:
         plan,
         options,
         watch,
+        saved,
+        keys,
         queue: Mutex::new(Queue::new(plan, waiting, budget)),
         endings: Mutex::new(Endings { runs: found, host_seconds: vec![None; plan.runs.len()] }),
         trouble: Mutex::new(None),
     };
     std::thread::scope(|scope| {
         for _ in 0..workers {
-            scope.spawn(|| desk.work(&|run, figures| saved.store(&keys[run], figures)));
+            scope.spawn(|| desk.work());
         }
     });
     match held(&desk.trouble).take() {
@@ -109,6 +98,9 @@ struct Desk<'a> {
     plan: &'a Plan,
     options: Options,
     watch: Watch,
+    saved: Saved,
+    /// Under which each run is saved.
+    keys: Vec<String>,
     queue: Mutex<Queue>,
     endings: Mutex<Endings>,
     trouble: Mutex<Option<io::Error>>,
@@ -116,13 +108,13 @@ struct Desk<'a> {
 
 impl Desk<'_> {
     /// Works on runs until none waits, or one could not be saved.
-    fn work(&self, save: &dyn Fn(usize, &Figures) -> io::Result<()>) {
+    fn work(&self) {
         while held(&self.trouble).is_none() {
             let Some(task) = held(&self.queue).take() else { return };
             let clock = HostClock::start();
             let ending = self.run(&task);
             if let Ok(figures) = &ending
-                && let Err(error) = save(task.run, figures)
+                && let Err(error) = self.saved.store(&self.keys[task.run], figures)
             {
                 *held(&self.trouble) = Some(error);
             }
@@ -143,11 +135,8 @@ impl Desk<'_> {
         let machine = &self.plan.machines[run.machine].machine;
         let (watch, index) = (Arc::clone(&self.watch), task.run);
         let on_shot = Arc::new(move || watch(Event::Shot { run: index }));
-        let run = engine::Run::new(problem, &run.point, &task.kept, on_shot);
-        match self.options.on {
-            On::Threads => run.on_threads(),
-            On::Simulation => run.simulate(machine),
-        }
+        let run = engine::run(problem, &run.point, &task.kept, on_shot);
+        engine::carry_out(&run, self.options.on, machine)
     }
 }
 

@@ -5,25 +5,18 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use crate::digest::{program, sha256};
+use crate::digest::sha256;
+use crate::engine::On;
 use crate::figures::Figures;
-use crate::output;
+use crate::file;
 use crate::plan::{Plan, Run};
-use crate::runner::On;
 
 /// The folder of finished runs inside a folder of results.
 pub struct Saved {
     folder: PathBuf,
     program: String,
-}
-
-#[derive(Serialize, Deserialize)]
-struct Entry {
-    key: String,
-    figures: Figures,
 }
 
 impl Saved {
@@ -47,6 +40,7 @@ impl Saved {
             "ties": point.ties,
             "stop": point.stop,
             "mapping": point.mapping,
+            "merge_masks": point.merge_masks,
             "radiosity_updates": point.radiosity_updates,
             "seed": point.seed,
         });
@@ -57,8 +51,7 @@ impl Saved {
     /// none.
     pub fn load(&self, key: &str) -> Option<Figures> {
         let text = fs::read_to_string(self.path(key)).ok()?;
-        let entry: Entry = serde_json::from_str(&text).ok()?;
-        (entry.key == key).then_some(entry.figures)
+        serde_json::from_str(&text).ok()
     }
 
     /// Keeps the figures of a finished run.
@@ -67,9 +60,7 @@ impl Saved {
     /// If the folder or the file cannot be written.
     pub fn store(&self, key: &str, figures: &Figures) -> io::Result<()> {
         fs::create_dir_all(&self.folder)?;
-        let entry = Entry { key: key.to_owned(), figures: figures.clone() };
-        let text = serde_json::to_vec(&entry).map_err(io::Error::other)?;
-        output::write(&self.path(key), &text)
+        file::write(&self.path(key), &serde_json::to_vec(figures)?)
     }
 
     /// Forgets all finished runs.
@@ -86,4 +77,11 @@ impl Saved {
     fn path(&self, key: &str) -> PathBuf {
         self.folder.join(format!("{key}.json"))
     }
+}
+
+/// SHA-256 of this program's own file: saved runs of another build are not this one's. Where the
+/// program cannot read itself, its version must do.
+fn program() -> String {
+    let bytes = std::env::current_exe().and_then(fs::read);
+    bytes.map_or_else(|_| env!("CARGO_PKG_VERSION").to_owned(), |bytes| sha256(&bytes))
 }

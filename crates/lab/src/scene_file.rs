@@ -4,12 +4,18 @@ use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use crate::document::Document;
 use crate::fault::Fault;
 use crate::place::Place;
 use crate::quantity::{Length, Triple};
-use crate::schema::scene_schema;
+use crate::schema;
+
+/// The schema of a scene description.
+pub fn scene_schema() -> Value {
+    schema::of::<SceneFile>()
+}
 
 /// A scene: an OBJ file and how finely to mesh and to cut it.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
@@ -46,7 +52,7 @@ impl SceneFile {
     /// # Errors
     /// A fault of the document, at its place.
     pub fn of(document: &Document) -> Result<SceneFile, Fault> {
-        document.refuse_unknown_keys(&scene_schema())?;
+        document.refuse_unknown_keys::<SceneFile>()?;
         let file: SceneFile = document.typed(&document.value, |place| place)?;
         for (environments, cut) in &file.cuts {
             let place = Place::of("cuts").key(environments);

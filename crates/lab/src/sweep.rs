@@ -3,9 +3,9 @@
 use serde_json::Value;
 
 use crate::document::Document;
+use crate::experiment::UNSWEPT;
 use crate::fault::Fault;
 use crate::place::{Place, Step};
-use crate::schema::UNSWEPT;
 
 /// More runs than anyone means to start.
 const MOST_RUNS: usize = 100_000;

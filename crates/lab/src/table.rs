@@ -1,10 +1,8 @@
 //! The results of an experiment as rows of text: what runs.csv holds, and all that is drawn from.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use crate::columns;
-use crate::fault::Fault;
 use crate::place::Place;
 use crate::plan::{Plan, Run};
 use crate::runner::{Ending, Endings};
@@ -34,17 +32,13 @@ impl Table {
     /// Reads a runs.csv.
     ///
     /// # Errors
-    /// If it cannot be read, or a row has too few or too many cells.
-    pub fn read(path: &Path) -> Result<Table, Fault> {
+    /// If a row has too few or too many cells, or is no text.
+    pub fn from_csv(bytes: &[u8]) -> Result<Table, csv::Error> {
         let cells = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect();
-        let read = || {
-            let mut reader = csv::Reader::from_path(path)?;
-            let columns = cells(reader.headers()?);
-            let rows = reader.records().map(|record| Ok(cells(&record?)));
-            Ok(Table { columns, rows: rows.collect::<Result<_, csv::Error>>()? })
-        };
-        let refuse = |error| Fault::of_file(path.display(), format!("cannot be read: {error}"));
-        read().map_err(|error: csv::Error| refuse(error))
+        let mut reader = csv::Reader::from_reader(bytes);
+        let columns = cells(reader.headers()?);
+        let rows = reader.records().map(|record| Ok(cells(&record?)));
+        Ok(Table { columns, rows: rows.collect::<Result<_, csv::Error>>()? })
     }
 
     /// The table as CSV.

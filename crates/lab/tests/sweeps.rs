@@ -143,6 +143,15 @@ fn what_a_run_depends_on_decides_whether_it_is_saved() {
 }
 
 #[test]
+fn runs_that_differ_in_one_field_are_saved_apart() {
+    let project =
+        Project::new(&SWEEP.replace("\"title\"", "\"merge_masks\": [false, true], \"title\""));
+    let (plan, out) = (plan(&project), project.path("out"));
+    carried_out(&plan, &out, options(1));
+    assert_eq!(saved(&out).len(), plan.runs.len());
+}
+
+#[test]
 fn the_manifests_experiment_gives_the_same_results() {
     let project = Project::new(SWEEP);
     let (first, ..) = carried_out(&plan(&project), &project.path("one"), options(1));

@@ -1,18 +1,11 @@
-//! A scene, meshed and cut: what runs on different machines and by different rules share.
-
-use std::path::Path;
+//! How a scene is meshed, cut and lit: the experiment's word first, then the scene file's.
 
 use serde::Serialize;
 
 use crate::cut::{automatic_cells, automatic_cut};
-use crate::digest::FileDigest;
-use crate::document::Document;
-use crate::engine;
 use crate::experiment::{Directions, Experiment};
-use crate::fault::Fault;
-use crate::find::Found;
 use crate::quantity::Triple;
-use crate::scene_file::SceneFile;
+use crate::scene::Scene;
 
 /// A patch of a bare OBJ file is at most this share of the scene's diagonal long.
 const BARE_PATCHES: f64 = 1.0 / 50.0;
@@ -20,64 +13,8 @@ const BARE_PATCHES: f64 = 1.0 / 50.0;
 /// More patches than a host's memory holds with ease.
 const MOST_PATCHES: f64 = 2e7;
 
-/// A scene with its description, if it has one.
-pub struct Scene {
-    /// Its description; none for a bare OBJ file.
-    pub file: Option<SceneFile>,
-    /// Its geometry.
-    pub geometry: engine::Scene,
-    /// The files it was read from.
-    pub digests: Vec<FileDigest>,
-}
-
-impl Scene {
-    /// Loads a scene description and its OBJ file, or a bare OBJ file.
-    ///
-    /// # Errors
-    /// What is wrong with them, and where.
-    pub fn load(found: &Found) -> Result<Scene, Fault> {
-        let (path, label) = (&found.path, Path::new(&found.label));
-        if path.extension().is_some_and(|ending| ending == "obj") {
-            return Scene::of_obj(path, label, None, Vec::new());
-        }
-        let document = Document::read(path)?;
-        let file = SceneFile::of(&document)?;
-        let digests = vec![FileDigest::of(path, &found.label)?];
-        let folder = path.parent().unwrap_or(Path::new(""));
-        let obj = folder.join(&file.obj);
-        if !obj.is_file() {
-            let message = format!("\"{}\": no such file in {}", file.obj, folder.display());
-            return Err(document.fault(&crate::place::Place::of("obj"), message));
-        }
-        Scene::of_obj(&obj, &label.with_file_name(&file.obj), Some(file), digests)
-    }
-
-    fn of_obj(
-        path: &Path,
-        label: &Path,
-        file: Option<SceneFile>,
-        mut digests: Vec<FileDigest>,
-    ) -> Result<Scene, Fault> {
-        let geometry = engine::Scene::load(path, &label.display().to_string())?;
-        digests.push(FileDigest::of(path, &label.display().to_string())?);
-        // Materials decide the light as much as the geometry does.
-        for library in material_libraries(path) {
-            let (path, label) = (path.with_file_name(&library), label.with_file_name(&library));
-            if path.is_file() {
-                digests.push(FileDigest::of(&path, &label.display().to_string())?);
-            }
-        }
-        Ok(Scene { file, geometry, digests })
-    }
-}
-
-/// The material files that an OBJ file names.
-fn material_libraries(obj: &Path) -> Vec<String> {
-    let text = std::fs::read(obj).unwrap_or_default();
-    let text = String::from_utf8_lossy(&text);
-    let names = text.lines().filter_map(|line| line.trim().strip_prefix("mtllib "));
-    names.map(|name| name.trim().to_owned()).collect()
-}
+/// What is wrong with a field of the experiment: its place, and the message.
+pub type WrongField = (&'static str, String);
 
 /// How a scene is meshed, cut and lit: all that decides what a shot does.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -107,10 +44,10 @@ impl Settings {
     ///
     /// # Errors
     /// The field at fault, and what is wrong.
-    pub fn of(point: &Experiment, scene: &Scene) -> Result<Settings, (&'static str, String)> {
+    pub fn of(point: &Experiment, scene: &Scene) -> Result<Settings, WrongField> {
         let (cells, cut) = cells_and_cut(point, scene)?;
         let file = scene.file.as_ref();
-        let extents = scene.geometry.extents();
+        let extents = scene.geometry.bounds.size().to_array();
         let diagonal = extents.iter().map(|extent| extent * extent).sum::<f64>().sqrt();
         let own = point.patch_size.as_ref().or(file.map(|file| &file.patch_size));
         let patch_size = own.map_or(diagonal * BARE_PATCHES, |size| size.value());
@@ -134,11 +71,8 @@ impl Settings {
     }
 }
 
-fn cells_and_cut(
-    point: &Experiment,
-    scene: &Scene,
-) -> Result<(Triple, Triple), (&'static str, String)> {
-    let (file, extents) = (scene.file.as_ref(), scene.geometry.extents());
+fn cells_and_cut(point: &Experiment, scene: &Scene) -> Result<(Triple, Triple), WrongField> {
+    let (file, extents) = (scene.file.as_ref(), scene.geometry.bounds.size().to_array());
     let environments = point.local_environments;
     if let Some(cut) = point.cut.filter(|cut| cut.product() != u64::from(environments)) {
         let message = format!("\"{cut}\" makes {} local environments", cut.product());
@@ -151,7 +85,7 @@ fn cells_and_cut(
         let message = format!("{environments} boxes do not fit the grid of cells{cells}");
         return Err(("local_environments", message + "; expected a cell or more in each"));
     };
-    let polygons = scene.geometry.polygons();
+    let polygons = scene.geometry.polygons.len();
     let cells = fixed.unwrap_or_else(|| automatic_cells(extents, polygons, Some(cut)));
     if (0..3).any(|axis| cut.0[axis] > cells.0[axis]) {
         let message = format!("\"{cut}\" leaves local environments without a cell of {cells}");
