@@ -67,7 +67,10 @@ fn it_stands_beside_the_papers() {
         assert_eq!(read(&one), read(&two), "{file} depends on the number of threads");
     }
 
-    let cells = cells(&fs::read_to_string(one.join("runs.csv")).unwrap());
+    let csv = fs::read_to_string(one.join("runs.csv")).unwrap();
+    let committed = fs::read_to_string(root().join("results/table1/runs.csv")).unwrap();
+    assert!(csv == committed, "results/table1 is not what the program finds: run the experiment");
+    let cells = cells(&csv);
     assert_eq!(cells.len(), 24);
     let mut logarithms = 0.0;
     for cell in &cells {

@@ -22,6 +22,16 @@ impl Bounds {
             .fold(Bounds::EMPTY, |b, p| Bounds { min: b.min.min(p), max: b.max.max(p) })
     }
 
+    /// The same, larger by `by` on every side.
+    pub fn widened(&self, by: f64) -> Bounds {
+        Bounds { min: self.min - by, max: self.max + by }
+    }
+
+    /// What lies in both boxes.
+    pub fn intersection(&self, other: &Bounds) -> Bounds {
+        Bounds { min: self.min.max(other.min), max: self.max.min(other.max) }
+    }
+
     /// Edge lengths.
     pub fn size(&self) -> DVec3 {
         self.max - self.min

@@ -7,6 +7,7 @@ use crate::clip::{area_and_centroid, clip_to_box, clip_to_slab};
 use crate::grid::{Block, Side};
 use crate::scene::{Polygon, Rgb};
 use crate::space::Space;
+use crate::tree::Tree;
 
 /// Edge lengths that a quad-tree of patches goes down to, metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,7 +30,9 @@ pub struct Patch {
 }
 
 /// The part of one polygon inside an environment, and its quad-tree, which all its leaves reach at
-/// the same depth on each side: 2^i by 2^j slots, each with its patch.
+/// the same depth on each side: 2^i by 2^j slots, each with its patch. None of it is left of a polygon
+/// that shows the environment only its back.
+#[derive(Default)]
 struct Piece {
     polygon: u32,
     /// `point · u - u0` runs from 0 to `nu` over the piece; likewise v.
@@ -53,6 +56,8 @@ pub struct LocalEnvironment {
     pieces: Vec<Piece>,
     /// Patch of each slot of each piece; a slot outside its polygon names the nearest patch.
     slots: Vec<u32>,
+    /// Over the boxes of its pieces.
+    pub(crate) tree: Tree,
     /// The area that a patch counts for when its radiosity is told: a sliver's radiosity, a few
     /// rays over hardly any area, would mean nothing.
     least_area: f64,
@@ -71,6 +76,7 @@ impl LocalEnvironment {
             patches: Vec::new(),
             pieces: Vec::new(),
             slots: Vec::new(),
+            tree: Tree::default(),
             least_area: SLIVER * size.reflector * size.reflector,
             whole: space.grid.whole(),
         };
@@ -78,9 +84,17 @@ impl LocalEnvironment {
             block.cells().flat_map(|cell| space.grid.polygons(cell).iter().copied()).collect();
         met.sort_unstable();
         met.dedup();
-        for id in met {
+        for &id in &met {
             environment.add_polygon(space, id, size);
         }
+        // Wider than what rounding and the tolerance of hits can put outside.
+        let widen = 8.0 * space.scene.tolerance();
+        let around = space.grid.bounds(&block);
+        let boxed = |&id: &u32| {
+            let corners = space.scene.corners(&space.scene.polygons[id as usize]);
+            Bounds::of(corners).widened(widen).intersection(&around.widened(widen))
+        };
+        environment.tree = Tree::new(&met.iter().map(boxed).collect::<Vec<_>>());
         environment
     }
 
@@ -96,8 +110,27 @@ impl LocalEnvironment {
     /// The patch of a polygon at a point where a ray hit its front. Every point that a ray's passage
     /// through this environment can hit has one.
     pub fn patch_at(&self, polygon: u32, point: DVec3) -> Option<u32> {
-        let piece = self.pieces.binary_search_by_key(&polygon, |piece| piece.polygon).ok()?;
-        let piece = &self.pieces[piece];
+        self.patch_of(self.piece(polygon)?, point)
+    }
+
+    /// The number of a polygon among those of this environment.
+    pub(crate) fn piece(&self, polygon: u32) -> Option<u32> {
+        let found = self.pieces.binary_search_by_key(&polygon, |piece| piece.polygon);
+        found.ok().map(|piece| piece as u32)
+    }
+
+    /// The polygon of a piece.
+    pub(crate) fn polygon(&self, piece: u32) -> u32 {
+        self.pieces[piece as usize].polygon
+    }
+
+    /// The patch of a piece at a point where a ray hit its front.
+    #[inline]
+    pub(crate) fn patch_of(&self, piece: u32, point: DVec3) -> Option<u32> {
+        let piece = &self.pieces[piece as usize];
+        if piece.nu == 0 {
+            return None;
+        }
         let slot = |along: DVec3, start: f64, n: u32| {
             ((point.dot(along) - start).max(0.0) as u32).min(n - 1)
         };
@@ -121,6 +154,7 @@ impl LocalEnvironment {
         let bounds = space.grid.bounds(&self.block);
         let corners: Vec<DVec3> = space.scene.corners(polygon).collect();
         if lies_behind(polygon, &corners, bounds.min, bounds.max) {
+            self.pieces.push(Piece { polygon: id, ..Piece::default() });
             return;
         }
         let emits = space.scene.material(polygon).emission != Rgb::ZERO;

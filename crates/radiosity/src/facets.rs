@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::bounds::Bounds;
 use crate::scene::Scene;
 
 /// A ray from the centre of a source; distances along it are metres.
@@ -19,26 +20,39 @@ impl Ray {
     /// A ray. Components of the direction too small to matter count as zero, so that no product of
     /// zero and infinity arises where the ray starts on a plane of the grid.
     pub fn new(origin: DVec3, direction: DVec3) -> Ray {
-        let direction = direction.map(|d| if d.abs() < 1e-100 { 0.0 } else { d });
+        let direction = direction.map(|d| if d.abs() < Ray::LEAST { 0.0 } else { d });
         Ray { origin, direction, inverse: direction.recip() }
     }
+
+    /// The point at a distance.
+    #[inline]
+    pub fn at(&self, distance: f64) -> DVec3 {
+        self.origin + self.direction * distance
+    }
+
+    /// A component of a direction smaller than this is zero.
+    pub(crate) const LEAST: f64 = 1e-100;
 }
 
-struct Facet {
-    normal: DVec3,
-    offset: f64,
+pub(crate) struct Facet {
+    pub(crate) normal: DVec3,
+    pub(crate) offset: f64,
     first_edge: u32,
     edges: u32,
     /// The two coordinates kept when the polygon is flattened along its normal's largest component.
-    kept: (usize, usize),
+    pub(crate) kept: (usize, usize),
+    /// The axis and the sign of the normal, if it is one.
+    pub(crate) axis: Option<(usize, f64)>,
+    /// Least and greatest kept coordinates, if the edges run along them.
+    pub(crate) rectangle: Option<[(f64, f64); 2]>,
 }
 
 /// An edge's half-plane in the flattened polygon: inside where `a·p + b·q + c` is not negative,
 /// in metres of the flattened plane.
-struct Edge {
-    a: f64,
-    b: f64,
-    c: f64,
+pub(crate) struct Edge {
+    pub(crate) a: f64,
+    pub(crate) b: f64,
+    pub(crate) c: f64,
 }
 
 /// Every polygon of a scene, ready to be tested against rays.
@@ -50,7 +64,7 @@ struct Edge {
 pub struct Facets {
     facets: Vec<Facet>,
     edges: Vec<Edge>,
-    tolerance: f64,
+    pub(crate) tolerance: f64,
 }
 
 impl Facets {
@@ -73,16 +87,28 @@ impl Facets {
                 first_edge,
                 edges: corners.len() as u32,
                 kept,
+                rectangle: rectangle(&corners, kept),
+                axis: (0..3).find(|&a| normal[a].abs() == 1.0).map(|a| (a, normal[a])),
             });
         }
         Facets { facets, edges, tolerance: scene.tolerance() }
+    }
+
+    /// One facet.
+    pub(crate) fn facet(&self, facet: u32) -> &Facet {
+        &self.facets[facet as usize]
+    }
+
+    /// The edges of a facet.
+    pub(crate) fn edges(&self, facet: &Facet) -> &[Edge] {
+        &self.edges[facet.first_edge as usize..][..facet.edges as usize]
     }
 
     /// Distance at which a ray hits a facet, beyond the tolerance from its origin and no farther
     /// than `limit`.
     #[inline]
     pub fn hit(&self, facet: u32, ray: &Ray, limit: f64) -> Option<f64> {
-        let f = &self.facets[facet as usize];
+        let f = self.facet(facet);
         let slope = f.normal.dot(ray.direction);
         if slope == 0.0 {
             return None;
@@ -93,10 +119,9 @@ impl Facets {
         if !(t > self.tolerance && t <= limit) {
             return None;
         }
-        let point = ray.origin + ray.direction * t;
+        let point = ray.at(t);
         let (p, q) = (point[f.kept.0], point[f.kept.1]);
-        let edges = &self.edges[f.first_edge as usize..][..f.edges as usize];
-        edges.iter().all(|e| e.a * p + e.b * q + e.c >= -self.tolerance).then_some(t)
+        self.edges(f).iter().all(|e| e.a * p + e.b * q + e.c >= -self.tolerance).then_some(t)
     }
 
     /// Whether the ray meets the facet's front.
@@ -115,6 +140,16 @@ fn flattened(normal: DVec3) -> (usize, usize) {
     } else {
         (0, 1)
     }
+}
+
+/// The extents of a flattened polygon that is a rectangle along the axes.
+fn rectangle(corners: &[DVec3], (i, j): (usize, usize)) -> Option<[(f64, f64); 2]> {
+    let around = Bounds::of(corners.iter().copied());
+    let on_side =
+        |p: DVec3, axis: usize| p[axis] == around.min[axis] || p[axis] == around.max[axis];
+    let corner = |&p: &DVec3| on_side(p, i) && on_side(p, j);
+    let sides = [i, j].map(|axis| (around.min[axis], around.max[axis]));
+    (corners.len() == 4 && corners.iter().all(corner)).then_some(sides)
 }
 
 /// The half-plane of the edge from `p` to `q` that holds `middle`, a point inside the polygon.

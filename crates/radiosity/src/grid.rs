@@ -64,8 +64,9 @@ impl Block {
 /// of the ray alone, environments only cut it into stretches, and exactly one neighbour owns a ray
 /// that runs along an edge or through a corner.
 pub struct Grid {
-    planes: [Vec<f64>; 3],
-    starts: Vec<u32>,
+    pub(crate) planes: [Vec<f64>; 3],
+    /// Where the polygons of each cell start, and those of the last one end.
+    pub(crate) starts: Vec<u32>,
     polygons: Vec<u32>,
 }
 
@@ -129,7 +130,7 @@ impl Grid {
     }
 
     #[inline]
-    fn index(&self, [x, y, z]: [u32; 3]) -> usize {
+    pub(crate) fn index(&self, [x, y, z]: [u32; 3]) -> usize {
         let [nx, ny, _] = self.cells();
         (z as usize * ny as usize + y as usize) * nx as usize + x as usize
     }
@@ -160,10 +161,15 @@ impl Grid {
         block.cells().filter(meets).map(|cell| self.index(cell) as u32).collect()
     }
 
-    /// Where a ray's passage through a block begins, or `None` when it never enters.
+    /// The cell in which a point lies.
+    pub fn cell_of(&self, point: DVec3) -> [u32; 3] {
+        std::array::from_fn(|axis| self.cell_at(axis, point[axis]))
+    }
+
+    /// Where a ray's passage through a block begins, or `None` when it never enters; `start` is the
+    /// cell of its origin.
     #[inline]
-    pub fn enter(&self, block: &Block, ray: &Ray) -> Option<Passage<'_>> {
-        let start: [u32; 3] = std::array::from_fn(|a| self.cell_at(a, ray.origin[a]));
+    pub fn enter(&self, block: &Block, ray: &Ray, start: [u32; 3]) -> Option<Passage<'_>> {
         let mut cell = start;
         // The crossing that completes the entry: the last of those that each axis still lacks.
         let mut entry = (f64::NEG_INFINITY, 0);
@@ -241,14 +247,17 @@ impl Grid {
         }
     }
 
-    /// The side through which to pass on a ray that never enters `block`: towards the ray's origin.
-    /// It concerns sources that lie in a side of their environment and rays that leave at once.
-    pub fn side_towards(&self, block: &Block, origin: DVec3) -> Option<Side> {
-        (0..3).find_map(|axis| {
-            let cell = self.cell_at(axis, origin[axis]);
-            let upper = cell >= block.high[axis];
-            (upper || cell < block.low[axis]).then_some(Side { axis, upper })
-        })
+    /// The side by which to pass on a ray that never enters a block: towards its origin. Only a source
+    /// in a side of its own environment has such rays. One that starts in no other environment leaves
+    /// the scene.
+    pub fn side_towards(&self, block: &Block, ray: &Ray) -> Side {
+        let cell = self.cell_of(ray.origin);
+        let beyond = |axis: usize| {
+            let upper = cell[axis] >= block.high[axis];
+            (upper || cell[axis] < block.low[axis]).then_some(Side { axis, upper })
+        };
+        let outwards = Side { axis: 0, upper: ray.direction.x > 0.0 };
+        (0..3).find_map(beyond).unwrap_or(outwards)
     }
 }
 
@@ -265,9 +274,9 @@ pub struct Passage<'a> {
     grid: &'a Grid,
     block: Block,
     ray: Ray,
-    cell: [u32; 3],
+    pub(crate) cell: [u32; 3],
     /// Distance of the next crossing on each axis.
-    next: [f64; 3],
+    pub(crate) next: [f64; 3],
 }
 
 impl<'a> Passage<'a> {

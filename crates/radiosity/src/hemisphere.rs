@@ -5,6 +5,9 @@ use std::f64::consts::{PI, TAU};
 use glam::DVec3;
 use thiserror::Error;
 
+use crate::bounds::Bounds;
+use crate::bundle::{Bundles, WIDTH};
+
 /// How the pixels of a hemisphere are laid out.
 ///
 /// Choice C1: RR-3008 says "a hemisphere" and leaves its pixels open. All sets but the hemicube are
@@ -24,8 +27,10 @@ pub enum HemisphereKind {
 /// Directions over a source and the form factor that each stands for.
 #[derive(Clone, Debug)]
 pub struct Hemisphere {
-    /// Unit directions in the source's frame, z along its normal.
+    /// Unit directions in the source's frame, z along its normal; neighbours stand together, 64 to a
+    /// word of a mask.
     pub directions: Vec<DVec3>,
+    pub(crate) bundles: Bundles,
     /// Form factor of each pixel; they sum to 1.
     pub weights: Vec<f64>,
     /// Whether the set is turned about the normal by an angle of the source's own.
@@ -77,7 +82,11 @@ impl Hemisphere {
                 hemicube(side)
             }
         };
-        Ok(Hemisphere { directions, weights, rotated })
+        let mut order: Vec<u32> = (0..directions.len() as u32).collect();
+        group(&mut order, &directions);
+        let directions: Vec<DVec3> = order.iter().map(|&i| directions[i as usize]).collect();
+        let weights = order.iter().map(|&i| weights[i as usize]).collect();
+        Ok(Hemisphere { bundles: Bundles::new(&directions), directions, weights, rotated })
     }
 
     /// Number of pixels.
@@ -126,6 +135,23 @@ fn scramble(state: u64) -> u64 {
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     z ^ (z >> 31)
+}
+
+/// Put pixels in an order in which each run of 64 lies together on the disc: halve the longer extent
+/// at a multiple of 64 until no more than 64 are left.
+fn group(pixels: &mut [u32], directions: &[DVec3]) {
+    if pixels.len() <= WIDTH {
+        pixels.sort_unstable();
+        return;
+    }
+    let around = Bounds::of(pixels.iter().map(|&i| directions[i as usize]));
+    let axis = usize::from(around.size().y > around.size().x);
+    let at = |i: u32| directions[i as usize][axis];
+    let half = pixels.len().div_ceil(WIDTH) / 2 * WIDTH;
+    pixels.select_nth_unstable_by(half, |&a, &b| at(a).total_cmp(&at(b)).then(a.cmp(&b)));
+    let (low, high) = pixels.split_at_mut(half);
+    group(low, directions);
+    group(high, directions);
 }
 
 fn equal(directions: Vec<DVec3>) -> (Vec<DVec3>, Vec<f64>) {

@@ -3,6 +3,7 @@
 //! Knows nothing of processors, messages or time.
 
 mod bounds;
+mod bundle;
 mod camera;
 mod canvas;
 mod clean;
@@ -16,12 +17,17 @@ mod mask;
 mod mtl;
 mod obj;
 mod picture;
+mod plain;
+mod pyramid;
 mod scene;
 mod scene_error;
 mod shoot;
+mod shot;
 mod solve;
 mod space;
 mod text;
+mod tree;
+mod walk;
 mod warning;
 mod work;
 
@@ -37,9 +43,11 @@ pub use mask::Mask;
 pub use mtl::DEFAULT_REFLECTANCE;
 pub use obj::load_obj;
 pub use picture::{Exposure, Picture, PictureError, PictureOptions, render, studio_light};
+pub use plain::{End, cast, shoot_plainly};
 pub use scene::{Face, Material, Plane, Polygon, Rgb, Scene};
 pub use scene_error::SceneError;
-pub use shoot::{End, Outgoing, Shot, Source, cast, shoot};
+pub use shoot::shoot;
+pub use shot::{Outgoing, Shot, Source};
 pub use solve::solve;
 pub use space::Space;
 pub use warning::{Warning, WarningKind, Warnings};

@@ -2,7 +2,7 @@
 
 use crate::environment::LocalEnvironment;
 use crate::scene::Rgb;
-use crate::shoot::{Shot, Source};
+use crate::shot::{Shot, Source};
 use crate::space::Space;
 
 /// Radiosity and unshot power of the patches of one environment, and where energy went.

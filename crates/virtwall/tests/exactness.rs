@@ -10,7 +10,7 @@ use proptest::test_runner::RngSeed;
 use radiosity::glam::DVec3;
 use radiosity::{
     End, Face, Grid, Hemisphere, HemisphereKind, LocalEnvironment, Mask, PatchSize, Ray, Scene,
-    Source, Space, Work, cast, shoot,
+    Side, Source, Space, Work, cast, shoot, shoot_plainly,
 };
 use virtwall::{Problem, ProblemOptions};
 
@@ -214,6 +214,28 @@ proptest! {
             let hit: f64 = shot.hits.iter().map(|&(_, form_factor)| form_factor).sum();
             let out: f64 = shot.outgoing.iter().flatten().map(|o| o.form_factor).sum();
             prop_assert!((hit + shot.backs + shot.escaped + out - weight).abs() < 1e-12);
+        }
+    }
+
+    /// The fast path is its plain twin, to the bit: hits, masks and counted work, for a local source
+    /// and in every environment that it is handed on to.
+    #[test]
+    fn bundles_shoot_as_single_rays_do((scene, options) in case()) {
+        let problem = Problem::new(scene, options).unwrap();
+        for source in sources(&problem).iter().step_by(3) {
+            let mut waiting = vec![(source.environment, Mask::all(problem.hemisphere.pixels()))];
+            while let Some((number, mask)) = waiting.pop() {
+                let environment = &problem.environments[number as usize];
+                let [fast, plain] = [shoot, shoot_plainly].map(|shoot| {
+                    shoot(&problem.space, environment, &problem.hemisphere, source, &mask)
+                });
+                prop_assert_eq!(&fast, &plain);
+                for (side, outgoing) in Side::ALL.into_iter().zip(plain.outgoing) {
+                    let outgoing = outgoing.map(|outgoing| outgoing.mask);
+                    let neighbour = |mask| (problem.decomposition.neighbour(number, side), mask);
+                    waiting.extend(outgoing.map(neighbour));
+                }
+            }
         }
     }
 

@@ -1,0 +1,281 @@
+//! Bundles of 64 neighbouring rays from one source, one for each word of a mask: the fast path.
+//!
+//! The arithmetic of each ray is that of [`Facets::hit`] to the bit, only done on several rays at a
+//! time; loops are written so that the compiler turns them into vector instructions, and the best
+//! that the host has are chosen when the program runs.
+
+#![allow(clippy::needless_range_loop, reason = "plain loops become vector instructions")]
+
+use glam::DVec3;
+use multiversion::multiversion;
+
+use crate::bounds::Bounds;
+use crate::facets::{Facets, Ray};
+use crate::pyramid::Pyramid;
+use crate::walk::{Aim, LANES};
+
+/// Rays in a bundle: bits in a word of a mask.
+pub(crate) const WIDTH: usize = 64;
+
+/// A number for each ray of a bundle, those done at a time together.
+type Column = [[f64; LANES]; WIDTH / LANES];
+
+/// Unit directions in a source's frame, coordinate by coordinate, and a pyramid around each bundle.
+#[derive(Clone, Debug)]
+pub(crate) struct Bundles {
+    directions: Vec<[Column; 3]>,
+    pyramids: Vec<Pyramid>,
+}
+
+impl Bundles {
+    /// Bundles of directions in their order; the last one is filled up with its last direction.
+    pub(crate) fn new(directions: &[DVec3]) -> Bundles {
+        let fill = |bundle: &[DVec3]| {
+            let at = |lane: usize| bundle[lane.min(bundle.len() - 1)];
+            let column = |axis: usize| -> Column {
+                std::array::from_fn(|c| std::array::from_fn(|l| at(c * LANES + l)[axis]))
+            };
+            [column(0), column(1), column(2)]
+        };
+        let bundles = directions.chunks(WIDTH);
+        Bundles {
+            directions: bundles.clone().map(fill).collect(),
+            pyramids: bundles.map(Pyramid::around).collect(),
+        }
+    }
+}
+
+/// A bundle of rays over a source, and the nearest hit of each found so far.
+pub(crate) struct Rays {
+    origin: DVec3,
+    frame: [DVec3; 3],
+    direction: [Column; 3],
+    inverse: [Column; 3],
+    /// Metres to the nearest hit; before there is one, to the end of the environment.
+    distance: Column,
+    /// The hit polygon, by its number in the environment, with [`BACK`] for a back; of hits at the
+    /// same distance the lowest goes first.
+    hit: [[u64; LANES]; WIDTH / LANES],
+    /// The greatest distance that a ray may still go.
+    pub(crate) limit: f64,
+    pub(crate) pyramid: Pyramid,
+}
+
+/// Marks a hit on the back of a polygon.
+const BACK: u64 = 1 << 32;
+const NOTHING: u64 = u64::MAX;
+
+/// What one ray of a bundle hits.
+#[derive(Clone, Copy)]
+pub(crate) struct BundleHit {
+    /// Number of the polygon in the environment.
+    pub(crate) piece: u32,
+    pub(crate) front: bool,
+    pub(crate) distance: f64,
+}
+
+impl Rays {
+    /// Rays from a source, not aimed yet.
+    pub(crate) fn from(origin: DVec3, frame: [DVec3; 3]) -> Rays {
+        let zero = [[0.0; LANES]; WIDTH / LANES];
+        Rays {
+            origin,
+            frame,
+            direction: [zero; 3],
+            inverse: [zero; 3],
+            distance: zero,
+            hit: [[NOTHING; LANES]; WIDTH / LANES],
+            limit: 0.0,
+            pyramid: Pyramid::around(&[]),
+        }
+    }
+
+    /// Aim them as a bundle, those without their bit in `word` ended before they start; each reaches
+    /// to the end of the box `bounds`.
+    pub(crate) fn aim(&mut self, bundles: &Bundles, bundle: usize, word: u64, bounds: &Bounds) {
+        self.pyramid = bundles.pyramids[bundle].over(self.origin, self.frame);
+        turn(self, &bundles.directions[bundle], bounds, word);
+        self.limit = farthest(&self.distance);
+    }
+
+    /// One of the rays.
+    #[inline]
+    pub(crate) fn ray(&self, lane: usize) -> Ray {
+        let at = |of: &[Column; 3]| {
+            let [x, y, z] = of;
+            let (c, l) = (lane / LANES, lane % LANES);
+            DVec3::new(x[c][l], y[c][l], z[c][l])
+        };
+        Ray { origin: self.origin, direction: at(&self.direction), inverse: at(&self.inverse) }
+    }
+
+    /// What one of the rays hits.
+    #[inline]
+    pub(crate) fn hit(&self, lane: usize) -> Option<BundleHit> {
+        let (c, l) = (lane / LANES, lane % LANES);
+        let hit = self.hit[c][l];
+        (hit != NOTHING).then(|| BundleHit {
+            piece: hit as u32,
+            front: hit & BACK == 0,
+            distance: self.distance[c][l],
+        })
+    }
+
+    /// Eight of the rays, from a multiple of eight, for their walk.
+    pub(crate) fn lanes(&self, first: usize) -> Aim<'_> {
+        let c = first / LANES;
+        let mut distance = self.distance[c];
+        for (distance, &hit) in distance.iter_mut().zip(&self.hit[c]) {
+            *distance = if hit == NOTHING { f64::INFINITY } else { *distance };
+        }
+        let direction = self.direction.each_ref().map(|column| &column[c]);
+        let inverse = self.inverse.each_ref().map(|column| &column[c]);
+        Aim { direction, inverse, distance }
+    }
+
+    /// Test all rays against a polygon, number `piece` in the environment.
+    pub(crate) fn meet(&mut self, facets: &Facets, polygon: u32, piece: u32) {
+        if meet(self, facets, polygon, piece) {
+            self.limit = farthest(&self.distance);
+        }
+    }
+}
+
+// The functions below are plain loops over arrays of known length: a closure would be compiled
+// without the vector instructions that are chosen for them.
+
+#[multiversion(targets(
+    "x86_64+avx512f+avx512dq+avx512vl+avx512bw",
+    "x86_64+avx2",
+    "aarch64+neon"
+))]
+fn turn(rays: &mut Rays, local: &[Column; 3], bounds: &Bounds, word: u64) {
+    let [tangent, bitangent, normal] = rays.frame;
+    for chunk in 0..WIDTH / LANES {
+        let mut nearest = [f64::INFINITY; LANES];
+        for axis in 0..3 {
+            let (t, b, n) = (tangent[axis], bitangent[axis], normal[axis]);
+            let (low, high) =
+                (bounds.min[axis] - rays.origin[axis], bounds.max[axis] - rays.origin[axis]);
+            let (x, y, z) = (&local[0][chunk], &local[1][chunk], &local[2][chunk]);
+            let mut direction = [0.0; LANES];
+            let mut inverse = [0.0; LANES];
+            for l in 0..LANES {
+                let d: f64 = t * x[l] + b * y[l] + n * z[l];
+                direction[l] = if d.abs() < Ray::LEAST { 0.0 } else { d };
+            }
+            for l in 0..LANES {
+                inverse[l] = 1.0 / direction[l];
+                // Where the ray crosses the side of the box ahead, as the grid computes it.
+                let ahead = if direction[l] > 0.0 { high } else { low };
+                let crossing = if direction[l] == 0.0 { f64::INFINITY } else { ahead * inverse[l] };
+                nearest[l] = if crossing < nearest[l] { crossing } else { nearest[l] };
+            }
+            rays.direction[axis][chunk] = direction;
+            rays.inverse[axis][chunk] = inverse;
+        }
+        for l in 0..LANES {
+            let cast = word >> (chunk * LANES + l) & 1 == 1;
+            nearest[l] = if cast { nearest[l] } else { f64::NEG_INFINITY };
+        }
+        rays.distance[chunk] = nearest;
+        rays.hit[chunk] = [NOTHING; LANES];
+    }
+}
+
+/// [`Facets::hit`] on a bundle; whether any ray hits.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512dq+avx512vl+avx512bw",
+    "x86_64+avx2",
+    "aarch64+neon"
+))]
+fn meet(rays: &mut Rays, facets: &Facets, polygon: u32, piece: u32) -> bool {
+    let facet = facets.facet(polygon);
+    let above = facet.offset - facet.normal.dot(rays.origin);
+    let (nx, ny, nz) = (facet.normal.x, facet.normal.y, facet.normal.z);
+    let (i, j) = facet.kept;
+    let (oi, oj) = (rays.origin[i], rays.origin[j]);
+    let (edges, tolerance) = (facets.edges(facet), facets.tolerance);
+    let (front, back) = (u64::from(piece), u64::from(piece) | BACK);
+    let mut any = [0u64; LANES];
+    for chunk in 0..WIDTH / LANES {
+        let (x, y, z) =
+            (&rays.direction[0][chunk], &rays.direction[1][chunk], &rays.direction[2][chunk]);
+        let (di, dj) = (&rays.direction[i][chunk], &rays.direction[j][chunk]);
+        let mut slope = [0.0; LANES];
+        let mut t = [0.0; LANES];
+        for l in 0..LANES {
+            slope[l] = nx * x[l] + ny * y[l] + nz * z[l];
+        }
+        if let Some((axis, sign)) = facet.axis {
+            // In an axis-aligned plane the reciprocal is known, to the bit.
+            let inverse = &rays.inverse[axis][chunk];
+            for l in 0..LANES {
+                t[l] = above * (sign * inverse[l]);
+            }
+        } else {
+            for l in 0..LANES {
+                t[l] = above * (1.0 / slope[l]);
+            }
+        }
+        let (mut p, mut q) = ([0.0; LANES], [0.0; LANES]);
+        let mut margin = [f64::INFINITY; LANES];
+        for l in 0..LANES {
+            p[l] = oi + di[l] * t[l];
+        }
+        for l in 0..LANES {
+            q[l] = oj + dj[l] * t[l];
+        }
+        if let Some([(p0, p1), (q0, q1)]) = facet.rectangle {
+            // What the edges come to, to the bit, where their normals are axes.
+            for l in 0..LANES {
+                let (a, b) = (p[l] - p0, p1 - p[l]);
+                let (c, d) = (q[l] - q0, q1 - q[l]);
+                let (a, c) = (if a < b { a } else { b }, if c < d { c } else { d });
+                margin[l] = if a < c { a } else { c };
+            }
+        } else {
+            for e in edges {
+                for l in 0..LANES {
+                    let inside = e.a * p[l] + e.b * q[l] + e.c;
+                    margin[l] = if inside < margin[l] { inside } else { margin[l] };
+                }
+            }
+        }
+        let (mut distance, mut hit) = (rays.distance[chunk], rays.hit[chunk]);
+        for l in 0..LANES {
+            let key = if slope[l] < 0.0 { front } else { back };
+            let ahead = (slope[l] != 0.0) & (t[l] > tolerance) & (margin[l] >= -tolerance);
+            let nearer = (t[l] < distance[l]) | ((t[l] == distance[l]) & (key < hit[l]));
+            // All ones where this hit replaces the nearest one so far: selection without a branch.
+            let replaces = u64::from(ahead & nearer).wrapping_neg();
+            any[l] |= replaces;
+            let bits = (t[l].to_bits() & replaces) | (distance[l].to_bits() & !replaces);
+            distance[l] = f64::from_bits(bits);
+            hit[l] = (key & replaces) | (hit[l] & !replaces);
+        }
+        rays.distance[chunk] = distance;
+        rays.hit[chunk] = hit;
+    }
+    any != [0; LANES]
+}
+
+/// The greatest distance that a ray of a bundle may still go.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512dq+avx512vl+avx512bw",
+    "x86_64+avx2",
+    "aarch64+neon"
+))]
+fn farthest(distance: &Column) -> f64 {
+    let mut farthest = distance[0];
+    for lanes in distance {
+        for l in 0..LANES {
+            farthest[l] = if lanes[l] > farthest[l] { lanes[l] } else { farthest[l] };
+        }
+    }
+    let mut most = farthest[0];
+    for other in farthest {
+        most = if other > most { other } else { most };
+    }
+    most
+}

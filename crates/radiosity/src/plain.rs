@@ -1,0 +1,107 @@
+//! Shooting a ray at a time: slow, obvious, and the oracle of the fast path.
+
+use crate::environment::LocalEnvironment;
+use crate::facets::Ray;
+use crate::grid::Side;
+use crate::hemisphere::Hemisphere;
+use crate::mask::Mask;
+use crate::shot::{Shot, Source, Tally};
+use crate::space::Space;
+use crate::work::{Operation, Work};
+
+/// Where a ray's passage through an environment ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum End {
+    /// On a polygon, at this distance.
+    Hit {
+        /// The polygon.
+        polygon: u32,
+        /// Metres from the ray's origin.
+        distance: f64,
+    },
+    /// Through a side of the environment.
+    Leaves(Side),
+}
+
+/// [`shoot`](crate::shoot) a ray at a time, each polygon of each cell tested as it comes.
+pub fn shoot_plainly(
+    space: &Space,
+    environment: &LocalEnvironment,
+    hemisphere: &Hemisphere,
+    source: &Source,
+    mask: &Mask,
+) -> Shot {
+    let [tangent, bitangent, normal] = hemisphere.frame(source.centre, source.normal);
+    let mut tally = Tally::new(environment, mask);
+    for pixel in mask.ones() {
+        let d = hemisphere.directions[pixel as usize];
+        let weight = hemisphere.weights[pixel as usize];
+        let ray = Ray::new(source.centre, tangent * d.x + bitangent * d.y + normal * d.z);
+        match cast(space, environment, &ray, source.polygon, &mut tally.shot.work) {
+            End::Hit { polygon, distance } => {
+                let point = ray.at(distance);
+                let front = space.facets.faces(polygon, &ray);
+                let patch = environment.patch_at(polygon, point).filter(|_| front);
+                tally.hit(patch, weight);
+            }
+            End::Leaves(side) => tally.leaves(environment, side, pixel, weight),
+        }
+    }
+    tally.finish(environment, mask)
+}
+
+/// Follow one ray through an environment to the nearest hit or to the side by which it leaves.
+pub fn cast(
+    space: &Space,
+    environment: &LocalEnvironment,
+    ray: &Ray,
+    own_polygon: u32,
+    work: &mut Work,
+) -> End {
+    work.count(Operation::Ray, 1);
+    let start = space.grid.cell_of(ray.origin);
+    let Some(mut passage) = space.grid.enter(&environment.block, ray, start) else {
+        return End::Leaves(space.grid.side_towards(&environment.block, ray));
+    };
+    loop {
+        work.count(Operation::CellStep, 1);
+        let polygons = passage.polygons();
+        work.count(Operation::PolygonTest, polygons.len() as u64);
+        if let Some((polygon, distance)) =
+            nearest_hit(space, polygons, ray, own_polygon, passage.exit())
+        {
+            return End::Hit { polygon, distance };
+        }
+        if let Err(side) = passage.step() {
+            return End::Leaves(side);
+        }
+    }
+}
+
+/// The nearest polygon of a cell that a ray hits before it leaves the cell. Of polygons at the same
+/// distance a front goes before a back, then the lower number: coplanar surfaces have one owner.
+#[inline]
+fn nearest_hit(
+    space: &Space,
+    polygons: &[u32],
+    ray: &Ray,
+    own_polygon: u32,
+    exit: f64,
+) -> Option<(u32, f64)> {
+    let mut nearest: Option<(u32, f64)> = None;
+    for &polygon in polygons {
+        if polygon == own_polygon {
+            continue;
+        }
+        let limit = nearest.map_or(exit, |(_, distance)| distance);
+        let Some(distance) = space.facets.hit(polygon, ray, limit) else { continue };
+        let replaces = nearest.is_none_or(|(other, other_distance)| {
+            distance < other_distance
+                || (space.facets.faces(polygon, ray) && !space.facets.faces(other, ray))
+        });
+        if replaces {
+            nearest = Some((polygon, distance));
+        }
+    }
+    nearest
+}
