@@ -65,6 +65,8 @@ impl Block {
 /// that runs along an edge or through a corner.
 pub struct Grid {
     pub(crate) planes: [Vec<f64>; 3],
+    /// Cells in a metre.
+    per_metre: [f64; 3],
     /// Where the polygons of each cell start, and those of the last one end.
     pub(crate) starts: Vec<u32>,
     polygons: Vec<u32>,
@@ -85,7 +87,10 @@ impl Grid {
 
     /// Sort the polygons of a scene into the cells between `planes`.
     pub fn new(scene: &Scene, planes: [Vec<f64>; 3]) -> Grid {
-        let mut grid = Grid { planes, starts: Vec::new(), polygons: Vec::new() };
+        let per_metre = planes
+            .each_ref()
+            .map(|planes| (planes.len() - 1) as f64 / (planes[planes.len() - 1] - planes[0]));
+        let mut grid = Grid { planes, per_metre, starts: Vec::new(), polygons: Vec::new() };
         let mut pairs: Vec<(u32, u32)> = Vec::new();
         for (id, polygon) in scene.polygons.iter().enumerate() {
             let cells = grid.cells_met(scene, polygon);
@@ -209,7 +214,8 @@ impl Grid {
         }
         // A guess from the position, then put right by the crossings themselves.
         let last = self.planes[axis].len() as u32 - 2;
-        let mut cell = self.cell_at(axis, ray.origin[axis] + direction * entry.0);
+        let along = ray.origin[axis] + direction * entry.0 - self.planes[axis][0];
+        let mut cell = ((along * self.per_metre[axis]) as u32).min(last);
         let before = |plane: u32| (self.crossing(axis, plane, ray), axis) < entry;
         if direction > 0.0 {
             cell = cell.max(start);
