@@ -2,6 +2,7 @@
 //!
 //! Exit codes: 0 all is well; 1 a run failed; 2 bad input, and nothing was written.
 
+mod bench_rays;
 mod check;
 mod exit;
 mod plot;
@@ -36,8 +37,17 @@ enum Command {
     /// Make a scene of the paper, or look at any scene.
     #[command(subcommand)]
     Scene(SceneCommand),
+    /// Measure how fast this host is.
+    #[command(subcommand)]
+    Bench(BenchCommand),
     /// Print the JSON Schema of a kind of file.
     Schema(schema::Arguments),
+}
+
+#[derive(Subcommand)]
+enum BenchCommand {
+    /// Cast rays from random points of any scene.
+    Rays(bench_rays::Arguments),
 }
 
 #[derive(Subcommand)]
@@ -55,6 +65,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Scene(SceneCommand::Make(arguments)) => scene_make::run(&arguments),
         Command::Scene(SceneCommand::Show(arguments)) => scene_show::run(&arguments),
+        Command::Bench(BenchCommand::Rays(arguments)) => bench_rays::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
     };
     match done {

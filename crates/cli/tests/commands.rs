@@ -269,3 +269,21 @@ fn what_is_shipped_is_valid() {
     let checked = virtwall(&root, &["check"]).args(&files).output().unwrap();
     assert!(checked.status.success(), "{}", String::from_utf8_lossy(&checked.stderr));
 }
+
+/// Every ray is a hit or a miss, the fast path's as the plain one's, and on any number of threads.
+#[test]
+fn bench_rays_counts_every_ray() {
+    let project = Project::new(SWEEP);
+    let counts = |more: &[&str]| {
+        let arguments = ["bench", "rays", "box", "--sources", "6", "--rays", "100"];
+        let arguments = [&arguments, more, &["--format", "json"]].concat();
+        let (code, stdout, stderr) = output(&project, &arguments);
+        assert_eq!((code, stderr.as_str()), (0, ""));
+        let measured: serde_json::Value = serde_json::from_str(&stdout).unwrap();
+        ["rays", "hits", "misses"].map(|name| measured[name].as_u64().unwrap())
+    };
+    let fast = counts(&[]);
+    assert_eq!((fast[0], fast[1] + fast[2]), (600, 600));
+    assert_eq!(counts(&["--plain"]), fast);
+    assert_eq!(counts(&["--threads", "4"]), fast);
+}

@@ -6,6 +6,7 @@ use crate::hemisphere::Hemisphere;
 use crate::mask::Mask;
 use crate::shot::{Shot, Source, Tally};
 use crate::space::Space;
+use crate::tree::Waiting;
 use crate::walk::{LANES, Walks};
 use crate::work::Operation;
 
@@ -35,6 +36,7 @@ pub fn shoot(
         own_piece: environment.piece(source.polygon),
         start: space.grid.cell_of(source.centre),
         rays: Rays::from(source.centre, frame),
+        waiting: Waiting::default(),
         walks: Walks::new(&space.grid, environment.block, source.centre),
         tally: Tally::new(environment, mask),
     };
@@ -62,6 +64,7 @@ struct Volley<'a> {
     /// The cell of the source.
     start: [u32; 3],
     rays: Rays,
+    waiting: Waiting,
     walks: Walks<'a>,
     tally: Tally,
 }
@@ -69,9 +72,9 @@ struct Volley<'a> {
 impl Volley<'_> {
     /// Test the bundle against the polygons that it can meet, near ones first.
     fn find_hits(&mut self) {
-        let Volley { space, environment, own_piece, rays, .. } = self;
+        let Volley { space, environment, own_piece, rays, waiting, .. } = self;
         let (pyramid, limit) = (rays.pyramid, rays.limit);
-        environment.tree.visit(&pyramid, limit, |piece| {
+        environment.tree.visit(&pyramid, limit, waiting, |piece| {
             if Some(piece) != *own_piece {
                 rays.meet(&space.facets, environment.polygon(piece), piece);
             }

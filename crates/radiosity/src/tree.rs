@@ -26,6 +26,10 @@ struct Node {
     children: [Child; WIDE],
 }
 
+/// Children to be visited, with the squares of their distances, the next one last.
+#[derive(Default)]
+pub(crate) struct Waiting(Vec<(f64, Child)>);
+
 #[derive(Clone, Copy)]
 enum Child {
     None,
@@ -76,17 +80,20 @@ impl Tree {
     }
 
     /// Visit the items whose boxes a pyramid meets within `limit` metres of its apex, nearer boxes
-    /// first. A visit returns the limit from then on.
+    /// first. A visit returns the limit from then on. `waiting` is room to work in, kept by the
+    /// caller so that no visit asks for memory.
     pub(crate) fn visit(
         &self,
         pyramid: &Pyramid,
         mut limit: f64,
+        Waiting(waiting): &mut Waiting,
         mut visit: impl FnMut(u32) -> f64,
     ) {
         if self.nodes.is_empty() {
             return;
         }
-        let mut waiting = vec![(0.0, Child::Node(0))];
+        waiting.clear();
+        waiting.push((0.0, Child::Node(0)));
         while let Some((square_distance, child)) = waiting.pop() {
             if square_distance > limit * limit {
                 continue;
@@ -194,7 +201,7 @@ mod tests {
         let pyramid = Pyramid::around(&directions).over(apex, frame);
         for limit in [2.0, 5.0, 100.0] {
             let mut visited = vec![false; boxes.len()];
-            tree.visit(&pyramid, limit, |item| {
+            tree.visit(&pyramid, limit, &mut Waiting::default(), |item| {
                 visited[item as usize] = true;
                 limit
             });
