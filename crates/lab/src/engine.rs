@@ -110,13 +110,13 @@ fn figures(problem: &Problem, outcome: &Outcome, virtual_time: bool) -> Figures 
     };
     Figures {
         time_s: virtual_time.then(|| outcome.time.as_seconds_f64()),
-        local_shots: outcome.local_shots,
-        received_shots: outcome.received_shots,
-        messages: outcome.messages,
-        message_bytes: outcome.message_bytes,
-        update_messages: outcome.update_messages,
-        update_bytes: outcome.update_bytes,
-        control_messages: outcome.control_messages,
+        local_shots: outcome.counts.local_shots,
+        received_shots: outcome.counts.received_shots,
+        messages: outcome.counts.messages,
+        message_bytes: outcome.counts.message_bytes,
+        update_messages: outcome.counts.update_messages,
+        update_bytes: outcome.counts.update_bytes,
+        control_messages: outcome.counts.control_messages,
         busy_fraction: virtual_time.then(|| outcome.busy_fraction()),
         energy_error: energy.error(),
         energy: Energy {

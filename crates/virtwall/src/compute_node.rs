@@ -5,6 +5,7 @@ use std::sync::Arc;
 use multicomputer::Rank;
 use radiosity::{Operation, Shot, Side, Work, shoot};
 
+use crate::counts::Counts;
 use crate::kept_shots::KeptShots;
 use crate::message::{Message, Parcel, Sums};
 use crate::problem::Problem;
@@ -46,14 +47,8 @@ impl Shared {
 /// What a compute node counted.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Tally {
+    pub counts: Counts,
     pub work: Work,
-    pub local_shots: u64,
-    pub received_shots: u64,
-    pub messages: u64,
-    pub message_bytes: u64,
-    pub update_messages: u64,
-    pub update_bytes: u64,
-    pub control_messages: u64,
     /// Sources handed on, to other nodes and within this one, and those taken up again.
     pub parcels_sent: u64,
     pub parcels_taken: u64,
@@ -111,7 +106,7 @@ impl ComputeNode {
                 Some(self.take_received(place))
             }
             (_, Some((_, holding, patch))) => {
-                self.tally.local_shots += 1;
+                self.tally.counts.local_shots += 1;
                 Some(self.region.take(holding, patch))
             }
             (None, None) => None,
@@ -120,7 +115,7 @@ impl ComputeNode {
 
     fn take_received(&mut self, place: usize) -> Parcel {
         let parcel = self.queue.take(place);
-        self.tally.received_shots += 1;
+        self.tally.counts.received_shots += 1;
         self.tally.parcels_taken += 1;
         self.tally.taken += parcel.source.power * parcel.form_factor;
         parcel
@@ -169,8 +164,8 @@ impl ComputeNode {
                 self.enqueue(onward);
             } else {
                 let bytes = Message::Source(Box::new(onward)).encode();
-                self.tally.messages += 1;
-                self.tally.message_bytes += bytes.len() as u64;
+                self.tally.counts.messages += 1;
+                self.tally.counts.message_bytes += bytes.len() as u64;
                 self.ring.patch_sent();
                 process.send(owner, bytes).await;
             }
@@ -183,8 +178,8 @@ impl ComputeNode {
             return;
         }
         let bytes = Message::Update(self.region.updates(parcel, shot)).encode();
-        self.tally.update_messages += 1;
-        self.tally.update_bytes += bytes.len() as u64;
+        self.tally.counts.update_messages += 1;
+        self.tally.counts.update_bytes += bytes.len() as u64;
         process.send(self.shared.service_node(), bytes).await;
     }
 
@@ -233,7 +228,7 @@ impl ComputeNode {
     }
 
     async fn send_control(&mut self, process: &impl Process, to: Rank, message: &Message) {
-        self.tally.control_messages += 1;
+        self.tally.counts.control_messages += 1;
         process.send(to, message.encode()).await;
     }
 

@@ -4,6 +4,7 @@
 //! Knows nothing of files, plots or the command line.
 
 mod compute_node;
+mod counts;
 mod decomposition;
 mod kept_shots;
 mod message;
@@ -20,6 +21,7 @@ mod simulation;
 mod threads;
 
 pub use compute_node::{ComputeNode, compute_node};
+pub use counts::Counts;
 pub use decomposition::{Decomposition, Mapping};
 pub use kept_shots::KeptShots;
 pub use message::{DecodeError, Message, Parcel, PatchUpdate, Sums};

@@ -4,6 +4,7 @@ use desim::{Duration, Time};
 use radiosity::{Rgb, Work};
 
 use crate::compute_node::ComputeNode;
+use crate::counts::Counts;
 
 /// What a run found: time, counts, energy, light.
 #[derive(Clone, Debug)]
@@ -13,20 +14,8 @@ pub struct Outcome {
     ///
     /// Choice C15: RR-3008 says "computing times".
     pub time: Time,
-    /// Shots of patches in their own environment.
-    pub local_shots: u64,
-    /// Shots of sources handed on from another environment, of the same processor or not.
-    pub received_shots: u64,
-    /// Sources sent from processor to processor.
-    pub messages: u64,
-    /// Their bytes.
-    pub message_bytes: u64,
-    /// Radiosity updates sent to the service node.
-    pub update_messages: u64,
-    /// Their bytes.
-    pub update_bytes: u64,
-    /// Messages of compute nodes for collection and termination.
-    pub control_messages: u64,
+    /// Shots and messages of all compute nodes.
+    pub counts: Counts,
     /// Where the emitted energy is.
     pub energy: EnergyLedger,
     /// How the end was found.
@@ -97,13 +86,16 @@ pub struct NodeReport {
 impl Outcome {
     /// Add up what the compute nodes found; `nodes` by rank.
     pub(crate) fn of(time: Time, nodes: &[ComputeNode], mut reports: Vec<NodeReport>) -> Outcome {
-        let sum = |count: fn(&ComputeNode) -> u64| nodes.iter().map(count).sum();
         let problem = &nodes[0].shared.problem;
         let mut energy = EnergyLedger { emitted: problem.emitted_power(), ..Default::default() };
         let mut radiosity = vec![Vec::new(); problem.environments.len()];
+        let mut counts = Counts::default();
         let mut work = Work::NONE;
+        let mut pending = 0;
         for (node, report) in nodes.iter().zip(&mut reports) {
+            counts += node.tally.counts;
             work += node.tally.work;
+            pending += node.tally.parcels_sent as i64 - node.tally.parcels_taken as i64;
             energy.in_transit += node.tally.sent - node.tally.taken;
             for (environment, light) in node.region.lights() {
                 energy.absorbed += light.absorbed;
@@ -114,19 +106,12 @@ impl Outcome {
                 radiosity[environment as usize] =
                     patches.map(|patch| light.radiosity(geometry, patch)).collect();
             }
-            report.local_shots = node.tally.local_shots;
-            report.received_shots = node.tally.received_shots;
+            report.local_shots = node.tally.counts.local_shots;
+            report.received_shots = node.tally.counts.received_shots;
         }
-        let pending = sum(|n| n.tally.parcels_sent) - sum(|n| n.tally.parcels_taken);
         Outcome {
             time,
-            local_shots: sum(|n| n.tally.local_shots),
-            received_shots: sum(|n| n.tally.received_shots),
-            messages: sum(|n| n.tally.messages),
-            message_bytes: sum(|n| n.tally.message_bytes),
-            update_messages: sum(|n| n.tally.update_messages),
-            update_bytes: sum(|n| n.tally.update_bytes),
-            control_messages: sum(|n| n.tally.control_messages),
+            counts,
             energy,
             ending: match pending {
                 0 => Ending::Agreed,

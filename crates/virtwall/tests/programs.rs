@@ -66,7 +66,7 @@ fn energy_closes_on_any_number_of_processors() {
             let outcome = simulate(&run(&problem, processors, rules), &paragon()).unwrap();
             assert!(outcome.energy.error() < 1e-9, "{:?}", outcome.energy);
             assert_eq!(outcome.ending, Ending::Agreed);
-            assert!(outcome.local_shots > 20 && outcome.time > Time::ZERO);
+            assert!(outcome.counts.local_shots > 20 && outcome.time > Time::ZERO);
             for node in &outcome.nodes {
                 assert!(node.compute + node.overhead + node.idle <= outcome.time - Time::ZERO);
             }
@@ -153,7 +153,7 @@ fn no_light_ends_at_once() {
     let dark = scene(&sides([0.0; 3], [4.0; 3], [0; 6], true), vec![grey(0.5, 0.0)]);
     let problem = Arc::new(problem(dark, [4, 4, 4], [2, 2, 1], 64, 1.0));
     let outcome = simulate(&run(&problem, 4, rules()), &paragon()).unwrap();
-    assert_eq!((outcome.local_shots, outcome.energy.error()), (0, 0.0));
+    assert_eq!((outcome.counts.local_shots, outcome.energy.error()), (0, 0.0));
     assert_eq!(outcome.ending, Ending::Agreed);
 }
 
