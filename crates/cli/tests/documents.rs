@@ -97,3 +97,37 @@ fn every_choice_in_the_code_is_listed() {
     }
     assert_eq!(marked, listed);
 }
+
+/// The table in the README is the one in results/table1, and so is the summary.
+#[test]
+fn the_readme_tells_the_results() {
+    let readme = fs::read_to_string(crates().join("../README.md")).unwrap();
+    let csv = fs::read_to_string(crates().join("../results/table1/runs.csv")).unwrap();
+    let mut lines = csv.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let names = lines.next().unwrap();
+    let runs: Vec<_> = lines.collect();
+    let told = table(&readme, "procs");
+    assert_eq!((told.len(), runs.len()), (8, 24));
+    let mut logarithms = 0.0;
+    for row in &told {
+        let mut expected = vec![row[0].clone()];
+        for scene in ["office", "rooms", "building"] {
+            let run = runs.iter().find(|run| run[0] == scene && run[1] == row[0]).unwrap();
+            let number = |name: &str| -> f64 {
+                run[names.iter().position(|n| *n == name).unwrap()].parse().unwrap()
+            };
+            let ratio = number("speed_up") / number("paper_speed_up");
+            logarithms += ratio.ln().abs();
+            let ratio = match row[0].as_str() {
+                "1" => format!("({:.2})", number("time_s") / number("paper_time_s")),
+                _ => format!("{ratio:.2}"),
+            };
+            let cells = ["time_s", "speed_up", "paper_speed_up"];
+            expected.extend(cells.map(|name| format!("{:.2}", number(name))));
+            expected.push(ratio);
+        }
+        assert_eq!(*row, expected);
+    }
+    let summary = format!("is **{:.3}**", (logarithms / 21.0_f64).exp());
+    assert!(readme.contains(&summary), "{summary}");
+}
