@@ -58,8 +58,9 @@ impl Light {
     }
 
     /// Update the patches with what a shot brought them (§3.3: one iteration of a progressive
-    /// radiosity algorithm).
-    pub fn receive(&mut self, source: &Source, shot: &Shot) {
+    /// radiosity algorithm). Returns the power that they reflect of it, W.
+    pub fn receive(&mut self, source: &Source, shot: &Shot) -> Rgb {
+        let mut all_reflected = Rgb::ZERO;
         for &(patch, form_factor) in &shot.hits {
             let patch = patch as usize;
             let arriving = source.power * form_factor;
@@ -67,9 +68,11 @@ impl Light {
             self.leaving[patch] += reflected;
             self.unshot[patch] += reflected;
             self.absorbed += arriving - reflected;
+            all_reflected += reflected;
         }
         self.absorbed += source.power * shot.backs;
         self.escaped += source.power * shot.escaped;
+        all_reflected
     }
 
     /// Radiosity of a patch, W/m².

@@ -37,17 +37,29 @@ pub fn shoot_plainly(
         let d = hemisphere.directions[pixel as usize];
         let weight = hemisphere.weights[pixel as usize];
         let ray = Ray::new(source.centre, tangent * d.x + bitangent * d.y + normal * d.z);
-        match cast(space, environment, &ray, source.polygon, &mut tally.shot.work) {
-            End::Hit { polygon, distance } => {
-                let point = ray.at(distance);
-                let front = space.facets.faces(polygon, &ray);
-                let patch = environment.patch_at(polygon, point).filter(|_| front);
-                tally.hit(patch, weight);
-            }
-            End::Leaves(side) => tally.leaves(environment, side, pixel, weight),
-        }
+        let pixel = (pixel, weight);
+        cast_pixel(space, environment, &ray, source.polygon, pixel, &mut tally);
     }
     tally.finish(environment, mask)
+}
+
+/// Cast the ray of a pixel, given with its weight, and count how it ends.
+pub(crate) fn cast_pixel(
+    space: &Space,
+    environment: &LocalEnvironment,
+    ray: &Ray,
+    own_polygon: u32,
+    (pixel, weight): (u32, f64),
+    tally: &mut Tally,
+) {
+    match cast(space, environment, ray, own_polygon, &mut tally.shot.work) {
+        End::Hit { polygon, distance } => {
+            let front = space.facets.faces(polygon, ray);
+            let patch = environment.patch_at(polygon, ray.at(distance)).filter(|_| front);
+            tally.hit(patch, weight);
+        }
+        End::Leaves(side) => tally.leaves(environment, side, pixel, weight),
+    }
 }
 
 /// Follow one ray through an environment to the nearest hit or to the side by which it leaves.

@@ -4,6 +4,7 @@ use crate::bundle::{Rays, WIDTH};
 use crate::environment::LocalEnvironment;
 use crate::hemisphere::Hemisphere;
 use crate::mask::Mask;
+use crate::plain::cast_pixel;
 use crate::shot::{Shot, Source, Tally};
 use crate::space::Space;
 use crate::tree::Waiting;
@@ -13,11 +14,12 @@ use crate::work::Operation;
 /// Cast the rays of all true pixels of `mask` from `source` through `environment`.
 ///
 /// Paper: a ray that hits an object clears its pixel; each neighbour gets a copy of the mask with
-/// the pixels whose rays enter it.
+/// the pixels whose rays enter it. Of a source from elsewhere, `mask` holds the pixels whose rays
+/// were not hit on their way here.
 ///
 /// The rays of a word of the mask go together: first they find what they hit, then they walk through
-/// the grid to count what the virtual processor would have done. [`shoot_plainly`] is the obvious
-/// twin.
+/// the grid to count what the virtual processor would have done. Where polygons are so small that a
+/// bundle meets very many, its rays go one by one. [`shoot_plainly`] is the obvious twin.
 ///
 /// [`shoot_plainly`]: crate::shoot_plainly
 #[doc(alias = "compute_illumination")]
@@ -33,6 +35,7 @@ pub fn shoot(
         space,
         environment,
         hemisphere,
+        source,
         own_piece: environment.piece(source.polygon),
         start: space.grid.cell_of(source.centre),
         rays: Rays::from(source.centre, frame),
@@ -43,7 +46,10 @@ pub fn shoot(
     let bounds = space.grid.bounds(&environment.block);
     for (bundle, &word) in mask.words().iter().enumerate().filter(|&(_, &word)| word != 0) {
         volley.rays.aim(&hemisphere.bundles, bundle, word, &bounds);
-        volley.find_hits();
+        if !volley.find_hits() {
+            volley.one_by_one(bundle, word);
+            continue;
+        }
         for first in (0..WIDTH).step_by(LANES) {
             volley.walk(first, word >> first);
             for lane in (first..first + LANES).filter(|lane| word >> lane & 1 == 1) {
@@ -54,11 +60,16 @@ pub fn shoot(
     volley.tally.finish(environment, mask)
 }
 
+/// Polygons that a bundle is tested against before its rays go one by one: about half as many as make
+/// both cost the same, where cells hold ten polygons.
+const MOST_POLYGONS: usize = 128;
+
 /// A shot under way.
 struct Volley<'a> {
     space: &'a Space,
     environment: &'a LocalEnvironment,
     hemisphere: &'a Hemisphere,
+    source: &'a Source,
     /// The source's own polygon among those of the environment, which its rays cannot hit.
     own_piece: Option<u32>,
     /// The cell of the source.
@@ -70,16 +81,29 @@ struct Volley<'a> {
 }
 
 impl Volley<'_> {
-    /// Test the bundle against the polygons that it can meet, near ones first.
-    fn find_hits(&mut self) {
+    /// Test the bundle against the polygons that it can meet, near ones first; whether they were few
+    /// enough.
+    fn find_hits(&mut self) -> bool {
         let Volley { space, environment, own_piece, rays, waiting, .. } = self;
         let (pyramid, limit) = (rays.pyramid, rays.limit);
+        let mut polygons = 0;
         environment.tree.visit(&pyramid, limit, waiting, |piece| {
             if Some(piece) != *own_piece {
                 rays.meet(&space.facets, environment.polygon(piece), piece);
             }
-            rays.limit
-        });
+            polygons += 1;
+            (polygons <= MOST_POLYGONS).then_some(rays.limit)
+        })
+    }
+
+    /// Cast the rays of a bundle plainly.
+    fn one_by_one(&mut self, bundle: usize, word: u64) {
+        let Volley { space, environment, hemisphere, source, rays, tally, .. } = self;
+        for lane in (0..WIDTH).filter(|lane| word >> lane & 1 == 1) {
+            let pixel = bundle * WIDTH + lane;
+            let pixel = (pixel as u32, hemisphere.weights[pixel]);
+            cast_pixel(space, environment, &rays.ray(lane), source.polygon, pixel, tally);
+        }
     }
 
     /// Walk the rays from `first` on that are `cast`, from the source or from where they enter.

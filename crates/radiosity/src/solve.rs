@@ -1,6 +1,7 @@
 //! Progressive radiosity in one environment: the traditional approach (§5.2), and a reference.
 
 use crate::environment::LocalEnvironment;
+use crate::greatest::Greatest;
 use crate::hemisphere::Hemisphere;
 use crate::light::Light;
 use crate::mask::Mask;
@@ -19,23 +20,20 @@ pub fn solve(
     most_shots: u64,
 ) -> (Light, u64) {
     let mut light = Light::new(space, environment);
-    let goal = light.unshot_power().element_sum() * stop_below;
+    let mut greatest = Greatest::new(light.unshot.iter().map(|power| power.element_sum()));
+    let mut left = light.unshot_power().element_sum();
+    let goal = left * stop_below;
     let mask = Mask::all(hemisphere.pixels());
     let mut shots = 0;
-    while shots < most_shots && light.unshot_power().element_sum() > goal {
-        let patches = light.unshot.iter().enumerate();
-        let Some((patch, _)) =
-            patches.reduce(
-                |best, other| {
-                    if other.1.element_sum() > best.1.element_sum() { other } else { best }
-                },
-            )
-        else {
-            break;
-        };
-        let source = light.take_source(space, environment, 0, patch as u32);
+    while shots < most_shots && left > goal {
+        let Some((power, patch)) = greatest.best() else { break };
+        let source = light.take_source(space, environment, 0, patch);
         let shot = shoot(space, environment, hemisphere, &source, &mask);
-        light.receive(&source, &shot);
+        left += light.receive(&source, &shot).element_sum() - power;
+        greatest.set(patch, light.unshot[patch as usize].element_sum());
+        for &(hit, _) in &shot.hits {
+            greatest.set(hit, light.unshot[hit as usize].element_sum());
+        }
         shots += 1;
     }
     (light, shots)

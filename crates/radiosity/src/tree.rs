@@ -80,17 +80,17 @@ impl Tree {
     }
 
     /// Visit the items whose boxes a pyramid meets within `limit` metres of its apex, nearer boxes
-    /// first. A visit returns the limit from then on. `waiting` is room to work in, kept by the
-    /// caller so that no visit asks for memory.
+    /// first. A visit returns the limit from then on, or `None` to go no further; whether all were
+    /// visited. `waiting` is room to work in, kept by the caller so that no visit asks for memory.
     pub(crate) fn visit(
         &self,
         pyramid: &Pyramid,
         mut limit: f64,
         Waiting(waiting): &mut Waiting,
-        mut visit: impl FnMut(u32) -> f64,
-    ) {
+        mut visit: impl FnMut(u32) -> Option<f64>,
+    ) -> bool {
         if self.nodes.is_empty() {
-            return;
+            return true;
         }
         waiting.clear();
         waiting.push((0.0, Child::Node(0)));
@@ -100,7 +100,10 @@ impl Tree {
             }
             match child {
                 Child::None => {}
-                Child::Item(item) => limit = visit(item),
+                Child::Item(item) => match visit(item) {
+                    Some(nearer) => limit = nearer,
+                    None => return false,
+                },
                 Child::Node(node) => {
                     let node = &self.nodes[node as usize];
                     let met = meets(node, pyramid, limit);
@@ -116,6 +119,7 @@ impl Tree {
                 }
             }
         }
+        true
     }
 }
 
@@ -203,7 +207,7 @@ mod tests {
             let mut visited = vec![false; boxes.len()];
             tree.visit(&pyramid, limit, &mut Waiting::default(), |item| {
                 visited[item as usize] = true;
-                limit
+                Some(limit)
             });
             assert!(visited.iter().filter(|&&v| v).count() < 100, "culls nothing");
             for direction in &directions {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use radiosity::{Light, Mask, Operation, Rgb, Shot, Work};
+use radiosity::{Greatest, Light, LocalEnvironment, Mask, Operation, Rgb, Shot, Work};
 
 use crate::message::{Parcel, PatchUpdate};
 use crate::problem::Problem;
@@ -21,16 +21,10 @@ pub struct Region {
 struct Holding {
     environment: u32,
     light: Light,
-    best: Best,
-}
-
-/// The patch of an environment with the greatest value.
-#[derive(Clone, Copy)]
-enum Best {
-    /// The light has changed since it was last looked for.
-    Unknown,
-    /// Its value and number; `None` when no patch has unshot light.
-    Known(Option<(f64, u32)>),
+    /// The values of its patches.
+    values: Greatest,
+    /// Whether the light has changed since the best patch was last looked for.
+    changed: bool,
 }
 
 impl Region {
@@ -43,7 +37,10 @@ impl Region {
     ) -> Region {
         let hold = |environment: u32| {
             let light = Light::new(&problem.space, &problem.environments[environment as usize]);
-            Holding { environment, light, best: Best::Unknown }
+            let geometry = &problem.environments[environment as usize];
+            let value = |patch: usize| value(selection, geometry, &light, patch as u32);
+            let values = Greatest::new((0..light.unshot.len()).map(value));
+            Holding { environment, light, values, changed: true }
         };
         let holdings = environments.map(hold).collect();
         Region { problem: Arc::clone(problem), selection, threshold, holdings }
@@ -51,6 +48,8 @@ impl Region {
 
     /// The local patch with the greatest value at or above the threshold: its value, holding and
     /// number; of equals the lowest number. Also the work of looking for it.
+    ///
+    /// The host looks it up; the virtual processor is charged for a linear search.
     ///
     /// Choice C16: the best patch of each environment is remembered, and looked for again among all
     /// patches of the environment only when its light has changed. Like §5.3, which fixes the number
@@ -61,16 +60,10 @@ impl Region {
         let mut best: Option<(f64, usize, u32)> = None;
         work.count(Operation::PatchScan, self.holdings.len() as u64);
         for (holding, held) in self.holdings.iter_mut().enumerate() {
-            let of_environment = match held.best {
-                Best::Known(found) => found,
-                Best::Unknown => {
-                    work.count(Operation::PatchScan, held.light.unshot.len() as u64);
-                    let found = best_patch(&self.problem, self.selection, held);
-                    held.best = Best::Known(found);
-                    found
-                }
-            };
-            let Some((value, patch)) = of_environment else { continue };
+            if std::mem::take(&mut held.changed) {
+                work.count(Operation::PatchScan, held.light.unshot.len() as u64);
+            }
+            let Some((value, patch)) = held.values.best() else { continue };
             if value >= self.threshold && best.is_none_or(|(other, ..)| value > other) {
                 best = Some((value, holding, patch));
             }
@@ -84,7 +77,8 @@ impl Region {
         let held = &mut self.holdings[holding];
         let environment = &problem.environments[held.environment as usize];
         let source = held.light.take_source(&problem.space, environment, held.environment, patch);
-        held.best = Best::Unknown;
+        held.values.set(patch, 0.0);
+        held.changed = true;
         let mask = Mask::all(problem.hemisphere.pixels());
         Parcel { environment: held.environment, source, mask, form_factor: 1.0 }
     }
@@ -95,7 +89,12 @@ impl Region {
         let Ok(place) = place else { return };
         let held = &mut self.holdings[place];
         held.light.receive(&parcel.source, shot);
-        held.best = Best::Unknown;
+        let geometry = &self.problem.environments[held.environment as usize];
+        for &(patch, _) in &shot.hits {
+            let value = value(self.selection, geometry, &held.light, patch);
+            held.values.set(patch, value);
+        }
+        held.changed = true;
     }
 
     /// By how much the radiosity of each patch that a shot hit has grown.
@@ -124,13 +123,8 @@ impl Region {
     }
 }
 
-/// The patch of one environment with the greatest value, if any is positive.
-fn best_patch(problem: &Problem, selection: Selection, held: &Holding) -> Option<(f64, u32)> {
-    let geometry = &problem.environments[held.environment as usize];
-    let values = held.light.unshot.iter().zip(0u32..).map(|(&power, patch)| {
-        (selection.value_of(power, power / geometry.radiosity_area(patch)), patch)
-    });
-    values
-        .filter(|&(value, _)| value > 0.0)
-        .reduce(|best, other| if other.0 > best.0 { other } else { best })
+/// The value by which a patch is selected.
+fn value(selection: Selection, geometry: &LocalEnvironment, light: &Light, patch: u32) -> f64 {
+    let power = light.unshot[patch as usize];
+    selection.value_of(power, power / geometry.radiosity_area(patch))
 }

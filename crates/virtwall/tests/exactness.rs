@@ -138,6 +138,22 @@ fn follow(problem: &Problem, source: &Source, ray: &Ray) -> End {
     panic!("a ray that never ends");
 }
 
+/// Shoot a source in its environment, and what is left of its mask in every environment that it is
+/// handed on to, in bundles and plainly.
+fn same_shots(problem: &Problem, source: &Source) {
+    let mut waiting = vec![(source.environment, Mask::all(problem.hemisphere.pixels()))];
+    while let Some((number, mask)) = waiting.pop() {
+        let environment = &problem.environments[number as usize];
+        let [fast, plain] = [shoot, shoot_plainly]
+            .map(|shoot| shoot(&problem.space, environment, &problem.hemisphere, source, &mask));
+        assert_eq!(fast, plain);
+        for (side, outgoing) in Side::ALL.into_iter().zip(plain.outgoing) {
+            let neighbour = |mask| (problem.decomposition.neighbour(number, side), mask);
+            waiting.extend(outgoing.map(|outgoing| outgoing.mask).map(neighbour));
+        }
+    }
+}
+
 fn rays<'a>(hemisphere: &'a Hemisphere, source: &Source) -> impl Iterator<Item = Ray> + 'a {
     let [t, b, n] = hemisphere.frame(source.centre, source.normal);
     let centre = source.centre;
@@ -223,19 +239,7 @@ proptest! {
     fn bundles_shoot_as_single_rays_do((scene, options) in case()) {
         let problem = Problem::new(scene, options).unwrap();
         for source in sources(&problem).iter().step_by(3) {
-            let mut waiting = vec![(source.environment, Mask::all(problem.hemisphere.pixels()))];
-            while let Some((number, mask)) = waiting.pop() {
-                let environment = &problem.environments[number as usize];
-                let [fast, plain] = [shoot, shoot_plainly].map(|shoot| {
-                    shoot(&problem.space, environment, &problem.hemisphere, source, &mask)
-                });
-                prop_assert_eq!(&fast, &plain);
-                for (side, outgoing) in Side::ALL.into_iter().zip(plain.outgoing) {
-                    let outgoing = outgoing.map(|outgoing| outgoing.mask);
-                    let neighbour = |mask| (problem.decomposition.neighbour(number, side), mask);
-                    waiting.extend(outgoing.map(neighbour));
-                }
-            }
+            same_shots(&problem, source);
         }
     }
 
@@ -300,5 +304,24 @@ fn empty_and_one_cell_environments() {
         for ray in rays(&problem.hemisphere, &source) {
             assert!(matches!(follow(&problem, &source, &ray), End::Hit { .. }));
         }
+    }
+}
+
+/// Where a bundle meets so many small polygons that its rays go one by one, nothing changes either.
+#[test]
+fn bundles_shoot_as_single_rays_do_at_many_small_polygons() {
+    let height = |i: u32, j: u32| 0.3 * (f64::from(i * 7 % 5) + f64::from(j * 3 % 4));
+    let corner = |i: u32, j: u32| [f64::from(i) * 0.2, f64::from(j) * 0.2, height(i, j)];
+    let mut faces = Vec::new();
+    for (i, j) in (0..30).flat_map(|i| (0..30).map(move |j| (i, j))) {
+        faces.push(face(&[corner(i, j), corner(i + 1, j), corner(i + 1, j + 1)], 0));
+        faces.push(face(&[corner(i, j), corner(i + 1, j + 1), corner(i, j + 1)], 0));
+    }
+    let lamp = [[2.0, 2.0, 3.0], [2.0, 4.0, 3.0], [4.0, 4.0, 3.0], [4.0, 2.0, 3.0]];
+    faces.push(face(&lamp, 1));
+    let scene = scene(&faces, vec![grey(0.5, 0.0), grey(0.0, 1.0)]);
+    let problem = problem(scene, [12, 12, 4], [2, 1, 1], 256, 1.0);
+    for source in sources(&problem).iter().step_by(40) {
+        same_shots(&problem, source);
     }
 }
