@@ -9,6 +9,7 @@ use serde_json::json;
 
 use crate::digest::sha256;
 use crate::engine::On;
+use crate::experiment::Experiment;
 use crate::figures::Figures;
 use crate::file;
 use crate::plan::{Plan, Run};
@@ -25,24 +26,25 @@ impl Saved {
         Saved { folder: out.join(".partial"), program: program() }
     }
 
-    /// What decides a run's figures: its settings, the files it reads, and this program.
+    /// What decides a run's figures: the whole point of the experiment but for what only presents
+    /// its results, the files it reads, and this program.
     pub fn key(&self, plan: &Plan, run: &Run, on: On) -> String {
-        let (prepared, point) = (&plan.problems[run.problem], &run.point);
+        let prepared = &plan.problems[run.problem];
         let scene: Vec<&str> = prepared.digests.iter().map(|file| file.sha256.as_str()).collect();
+        let point = Experiment {
+            schema: None,
+            title: String::new(),
+            compare_with: None,
+            plots: Vec::new(),
+            ..run.point.clone()
+        };
         let conditions = json!({
             "program": self.program,
             "on": on,
             "scene": scene,
             "settings": prepared.settings,
             "machine": plan.machines[run.machine].digest.sha256,
-            "processors": point.processors,
-            "selection": point.selection,
-            "ties": point.ties,
-            "stop": point.stop,
-            "mapping": point.mapping,
-            "merge_masks": point.merge_masks,
-            "radiosity_updates": point.radiosity_updates,
-            "seed": point.seed,
+            "point": point,
         });
         sha256(conditions.to_string().as_bytes())
     }

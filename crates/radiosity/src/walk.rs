@@ -24,6 +24,8 @@ pub(crate) struct Walks<'a> {
     planes: Vec<f64>,
     /// Where the planes of each axis start.
     first: [i64; 3],
+    /// By how much the number of a cell changes at a step up each axis.
+    stride: [i64; 3],
     state: State,
 }
 
@@ -87,7 +89,9 @@ impl<'a> Walks<'a> {
             planes.extend(grid.planes[axis].iter().map(|plane| plane - origin[axis]));
             planes.push(f64::INFINITY);
         }
-        Walks { grid, block, planes, first, state: State::default() }
+        let [nx, ny, _] = grid.cells().map(i64::from);
+        let stride = [1, nx, nx * ny];
+        Walks { grid, block, planes, first, stride, state: State::default() }
     }
 
     /// Forget the walks of before.
@@ -98,8 +102,6 @@ impl<'a> Walks<'a> {
     /// Start walks in the cell of the source itself, for those lanes that are `cast`; each goes as far
     /// as its `distance`.
     pub(crate) fn start_together(&mut self, cell: [u32; 3], aim: &Aim, cast: u64) {
-        let [nx, ny, _] = self.grid.cells().map(i64::from);
-        let stride = [1, nx, nx * ny];
         let ahead = std::array::from_fn(|axis| {
             let (low, high) = (self.block.low[axis], self.block.high[axis]);
             let place = self.first[axis] + i64::from(cell[axis]);
@@ -107,7 +109,7 @@ impl<'a> Walks<'a> {
                 planes: [place, place + 1].map(|plane| self.planes[plane as usize]),
                 place,
                 left: [cell[axis] - low, high - 1 - cell[axis]].map(i64::from),
-                stride: stride[axis],
+                stride: self.stride[axis],
             }
         });
         self.state.at = [self.grid.index(cell) as i64; LANES];
@@ -124,8 +126,6 @@ impl<'a> Walks<'a> {
         next: [f64; 3],
         distance: f64,
     ) {
-        let [nx, ny, _] = self.grid.cells().map(i64::from);
-        let stride = [1, nx, nx * ny];
         let state = &mut self.state;
         state.walking[lane] = u64::MAX;
         state.distance[lane] = distance;
@@ -142,7 +142,7 @@ impl<'a> Walks<'a> {
             state.left[axis][lane] = i64::from(left);
             state.inverse[axis][lane] = ray.inverse[axis];
             state.step[axis][lane] = step;
-            state.stride[axis][lane] = step * stride[axis];
+            state.stride[axis][lane] = step * self.stride[axis];
         }
     }
 

@@ -36,8 +36,8 @@ impl Region {
         threshold: f64,
     ) -> Region {
         let hold = |environment: u32| {
-            let light = Light::new(&problem.space, &problem.environments[environment as usize]);
             let geometry = &problem.environments[environment as usize];
+            let light = Light::new(&problem.space, geometry);
             let value = |patch: usize| value(selection, geometry, &light, patch as u32);
             let values = Greatest::new((0..light.unshot.len()).map(value));
             Holding { environment, light, values, changed: true }
