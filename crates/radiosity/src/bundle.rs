@@ -10,7 +10,7 @@ use glam::DVec3;
 use multiversion::multiversion;
 
 use crate::bounds::Bounds;
-use crate::facets::{Facets, Ray};
+use crate::facets::{Facet, Facets, Ray};
 use crate::pyramid::Pyramid;
 use crate::walk::{Aim, LANES};
 
@@ -192,60 +192,16 @@ fn turn(rays: &mut Rays, local: &[Column; 3], bounds: &Bounds, word: u64) {
 fn meet(rays: &mut Rays, facets: &Facets, polygon: u32, piece: u32) -> bool {
     let facet = facets.facet(polygon);
     let above = facet.offset - facet.normal.dot(rays.origin);
-    let (nx, ny, nz) = (facet.normal.x, facet.normal.y, facet.normal.z);
-    let (i, j) = facet.kept;
-    let (oi, oj) = (rays.origin[i], rays.origin[j]);
-    let (edges, tolerance) = (facets.edges(facet), facets.tolerance);
     let (front, back) = (u64::from(piece), u64::from(piece) | BACK);
     let mut any = [0u64; LANES];
     for chunk in 0..WIDTH / LANES {
-        let (x, y, z) =
-            (&rays.direction[0][chunk], &rays.direction[1][chunk], &rays.direction[2][chunk]);
-        let (di, dj) = (&rays.direction[i][chunk], &rays.direction[j][chunk]);
-        let mut slope = [0.0; LANES];
-        let mut t = [0.0; LANES];
-        for l in 0..LANES {
-            slope[l] = nx * x[l] + ny * y[l] + nz * z[l];
-        }
-        if let Some((axis, sign)) = facet.axis {
-            // In an axis-aligned plane the reciprocal is known, to the bit.
-            let inverse = &rays.inverse[axis][chunk];
-            for l in 0..LANES {
-                t[l] = above * (sign * inverse[l]);
-            }
-        } else {
-            for l in 0..LANES {
-                t[l] = above * (1.0 / slope[l]);
-            }
-        }
-        let (mut p, mut q) = ([0.0; LANES], [0.0; LANES]);
-        let mut margin = [f64::INFINITY; LANES];
-        for l in 0..LANES {
-            p[l] = oi + di[l] * t[l];
-        }
-        for l in 0..LANES {
-            q[l] = oj + dj[l] * t[l];
-        }
-        if let Some([(p0, p1), (q0, q1)]) = facet.rectangle {
-            // What the edges come to, to the bit, where their normals are axes.
-            for l in 0..LANES {
-                let (a, b) = (p[l] - p0, p1 - p[l]);
-                let (c, d) = (q[l] - q0, q1 - q[l]);
-                let (a, c) = (if a < b { a } else { b }, if c < d { c } else { d });
-                margin[l] = if a < c { a } else { c };
-            }
-        } else {
-            for e in edges {
-                for l in 0..LANES {
-                    let inside = e.a * p[l] + e.b * q[l] + e.c;
-                    margin[l] = if inside < margin[l] { inside } else { margin[l] };
-                }
-            }
-        }
+        let (slope, t) = distances(rays, facet, above, chunk);
+        let margin = margins(rays, facets, facet, &t, chunk);
         let (mut distance, mut hit) = (rays.distance[chunk], rays.hit[chunk]);
         for l in 0..LANES {
             let key = if slope[l] < 0.0 { front } else { back };
-            let ahead = (slope[l] != 0.0) & (t[l] > tolerance) & (margin[l] >= -tolerance);
+            let ahead =
+                (slope[l] != 0.0) & (t[l] > facets.tolerance) & (margin[l] >= -facets.tolerance);
             let nearer = (t[l] < distance[l]) | ((t[l] == distance[l]) & (key < hit[l]));
             // All ones where this hit replaces the nearest one so far: selection without a branch.
             let replaces = u64::from(ahead & nearer).wrapping_neg();
@@ -258,6 +214,69 @@ fn meet(rays: &mut Rays, facets: &Facets, polygon: u32, piece: u32) -> bool {
         rays.hit[chunk] = hit;
     }
     any != [0; LANES]
+}
+
+/// Slope of each ray towards a facet's plane, and the distance at which it meets the plane.
+#[inline(always)]
+fn distances(rays: &Rays, facet: &Facet, above: f64, chunk: usize) -> ([f64; LANES], [f64; LANES]) {
+    let (nx, ny, nz) = (facet.normal.x, facet.normal.y, facet.normal.z);
+    let (x, y, z) =
+        (&rays.direction[0][chunk], &rays.direction[1][chunk], &rays.direction[2][chunk]);
+    let (mut slope, mut t) = ([0.0; LANES], [0.0; LANES]);
+    for l in 0..LANES {
+        slope[l] = nx * x[l] + ny * y[l] + nz * z[l];
+    }
+    if let Some((axis, sign)) = facet.axis {
+        // In an axis-aligned plane the reciprocal is known, to the bit.
+        let inverse = &rays.inverse[axis][chunk];
+        for l in 0..LANES {
+            t[l] = above * (sign * inverse[l]);
+        }
+    } else {
+        for l in 0..LANES {
+            t[l] = above * (1.0 / slope[l]);
+        }
+    }
+    (slope, t)
+}
+
+/// How far inside the nearest edge each ray meets a facet's plane, metres of the flattened plane.
+#[inline(always)]
+fn margins(
+    rays: &Rays,
+    facets: &Facets,
+    facet: &Facet,
+    t: &[f64; LANES],
+    chunk: usize,
+) -> [f64; LANES] {
+    let (i, j) = facet.kept;
+    let (oi, oj) = (rays.origin[i], rays.origin[j]);
+    let (di, dj) = (&rays.direction[i][chunk], &rays.direction[j][chunk]);
+    let (mut p, mut q) = ([0.0; LANES], [0.0; LANES]);
+    for l in 0..LANES {
+        p[l] = oi + di[l] * t[l];
+    }
+    for l in 0..LANES {
+        q[l] = oj + dj[l] * t[l];
+    }
+    let mut margin = [f64::INFINITY; LANES];
+    if let Some([(p0, p1), (q0, q1)]) = facet.rectangle {
+        // What the edges come to, to the bit, where their normals are axes.
+        for l in 0..LANES {
+            let (a, b) = (p[l] - p0, p1 - p[l]);
+            let (c, d) = (q[l] - q0, q1 - q[l]);
+            let (a, c) = (if a < b { a } else { b }, if c < d { c } else { d });
+            margin[l] = if a < c { a } else { c };
+        }
+    } else {
+        for e in facets.edges(facet) {
+            for l in 0..LANES {
+                let inside = e.a * p[l] + e.b * q[l] + e.c;
+                margin[l] = if inside < margin[l] { inside } else { margin[l] };
+            }
+        }
+    }
+    margin
 }
 
 /// The greatest distance that a ray of a bundle may still go.
