@@ -12,13 +12,36 @@ use multiversion::multiversion;
 use crate::bounds::Bounds;
 use crate::facets::{Facet, Facets, Ray};
 use crate::pyramid::Pyramid;
-use crate::walk::{Aim, LANES};
 
 /// Rays in a bundle: bits in a word of a mask.
 pub(crate) const WIDTH: usize = 64;
 
+/// Rays done at a time.
+pub(crate) const LANES: usize = 8;
+
 /// A number for each ray of a bundle, those done at a time together.
 type Column = [[f64; LANES]; WIDTH / LANES];
+
+/// The bit of each ray in a word.
+pub(crate) const BIT: [[u64; LANES]; WIDTH / LANES] = {
+    let mut bit = [[0; LANES]; WIDTH / LANES];
+    let mut lane = 0;
+    while lane < WIDTH {
+        bit[lane / LANES][lane % LANES] = 1 << lane;
+        lane += 1;
+    }
+    bit
+};
+
+/// The bits of all lanes in one word.
+#[inline(always)]
+pub(crate) fn united(lanes: [u64; LANES]) -> u64 {
+    let mut word = 0;
+    for l in 0..LANES {
+        word |= lanes[l];
+    }
+    word
+}
 
 /// Unit directions in a source's frame, coordinate by coordinate, and a pyramid around each bundle.
 #[derive(Clone, Debug)]
@@ -47,32 +70,26 @@ impl Bundles {
 
 /// A bundle of rays over a source, and the nearest hit of each found so far.
 pub(crate) struct Rays {
-    origin: DVec3,
+    pub(crate) origin: DVec3,
     frame: [DVec3; 3],
-    direction: [Column; 3],
-    inverse: [Column; 3],
+    pub(crate) direction: [Column; 3],
+    pub(crate) inverse: [Column; 3],
+    /// By axis, the rays that go up it and those at right angles to it.
+    pub(crate) up: [u64; 3],
+    pub(crate) level: [u64; 3],
     /// Metres to the nearest hit; before there is one, to the end of the environment.
-    distance: Column,
+    pub(crate) distance: Column,
     /// The hit polygon, by its number in the environment, with [`BACK`] for a back; of hits at the
     /// same distance the lowest goes first.
-    hit: [[u64; LANES]; WIDTH / LANES],
+    pub(crate) hit: [[u64; LANES]; WIDTH / LANES],
     /// The greatest distance that a ray may still go.
     pub(crate) limit: f64,
     pub(crate) pyramid: Pyramid,
 }
 
 /// Marks a hit on the back of a polygon.
-const BACK: u64 = 1 << 32;
+pub(crate) const BACK: u64 = 1 << 32;
 const NOTHING: u64 = u64::MAX;
-
-/// What one ray of a bundle hits.
-#[derive(Clone, Copy)]
-pub(crate) struct BundleHit {
-    /// Number of the polygon in the environment.
-    pub(crate) piece: u32,
-    pub(crate) front: bool,
-    pub(crate) distance: f64,
-}
 
 impl Rays {
     /// Rays from a source, not aimed yet.
@@ -83,6 +100,8 @@ impl Rays {
             frame,
             direction: [zero; 3],
             inverse: [zero; 3],
+            up: [0; 3],
+            level: [0; 3],
             distance: zero,
             hit: [[NOTHING; LANES]; WIDTH / LANES],
             limit: 0.0,
@@ -109,28 +128,9 @@ impl Rays {
         Ray { origin: self.origin, direction: at(&self.direction), inverse: at(&self.inverse) }
     }
 
-    /// What one of the rays hits.
-    #[inline]
-    pub(crate) fn hit(&self, lane: usize) -> Option<BundleHit> {
-        let (c, l) = (lane / LANES, lane % LANES);
-        let hit = self.hit[c][l];
-        (hit != NOTHING).then(|| BundleHit {
-            piece: hit as u32,
-            front: hit & BACK == 0,
-            distance: self.distance[c][l],
-        })
-    }
-
-    /// Eight of the rays, from a multiple of eight, for their walk.
-    pub(crate) fn lanes(&self, first: usize) -> Aim<'_> {
-        let c = first / LANES;
-        let mut distance = self.distance[c];
-        for (distance, &hit) in distance.iter_mut().zip(&self.hit[c]) {
-            *distance = if hit == NOTHING { f64::INFINITY } else { *distance };
-        }
-        let direction = self.direction.each_ref().map(|column| &column[c]);
-        let inverse = self.inverse.each_ref().map(|column| &column[c]);
-        Aim { direction, inverse, distance }
+    /// The rays that hit something.
+    pub(crate) fn hits(&self) -> u64 {
+        hits(&self.hit)
     }
 
     /// Test all rays against a polygon, number `piece` in the environment.
@@ -151,7 +151,9 @@ impl Rays {
 ))]
 fn turn(rays: &mut Rays, local: &[Column; 3], bounds: &Bounds, word: u64) {
     let [tangent, bitangent, normal] = rays.frame;
+    let (mut up, mut level) = ([[0; LANES]; 3], [[0; LANES]; 3]);
     for chunk in 0..WIDTH / LANES {
+        let bit = &BIT[chunk];
         let mut nearest = [f64::INFINITY; LANES];
         for axis in 0..3 {
             let (t, b, n) = (tangent[axis], bitangent[axis], normal[axis]);
@@ -170,20 +172,36 @@ fn turn(rays: &mut Rays, local: &[Column; 3], bounds: &Bounds, word: u64) {
                 let ahead = if direction[l] > 0.0 { high } else { low };
                 let crossing = if direction[l] == 0.0 { f64::INFINITY } else { ahead * inverse[l] };
                 nearest[l] = if crossing < nearest[l] { crossing } else { nearest[l] };
+                up[axis][l] |= if direction[l] > 0.0 { bit[l] } else { 0 };
+                level[axis][l] |= if direction[l] == 0.0 { bit[l] } else { 0 };
             }
             rays.direction[axis][chunk] = direction;
             rays.inverse[axis][chunk] = inverse;
         }
         for l in 0..LANES {
-            let cast = word >> (chunk * LANES + l) & 1 == 1;
-            nearest[l] = if cast { nearest[l] } else { f64::NEG_INFINITY };
+            nearest[l] = if word & bit[l] != 0 { nearest[l] } else { f64::NEG_INFINITY };
         }
         rays.distance[chunk] = nearest;
         rays.hit[chunk] = [NOTHING; LANES];
     }
+    (rays.up, rays.level) = (up.map(united), level.map(united));
 }
 
-/// [`Facets::hit`] on a bundle; whether any ray hits.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512dq+avx512vl+avx512bw",
+    "x86_64+avx2",
+    "aarch64+neon"
+))]
+fn hits(hit: &[[u64; LANES]; WIDTH / LANES]) -> u64 {
+    let mut hits = [0; LANES];
+    for chunk in 0..WIDTH / LANES {
+        for l in 0..LANES {
+            hits[l] |= if hit[chunk][l] == NOTHING { 0 } else { BIT[chunk][l] };
+        }
+    }
+    united(hits)
+}
+
 #[multiversion(targets(
     "x86_64+avx512f+avx512dq+avx512vl+avx512bw",
     "x86_64+avx2",
@@ -223,17 +241,16 @@ fn distances(rays: &Rays, facet: &Facet, above: f64, chunk: usize) -> ([f64; LAN
     let (x, y, z) =
         (&rays.direction[0][chunk], &rays.direction[1][chunk], &rays.direction[2][chunk]);
     let (mut slope, mut t) = ([0.0; LANES], [0.0; LANES]);
-    for l in 0..LANES {
-        slope[l] = nx * x[l] + ny * y[l] + nz * z[l];
-    }
     if let Some((axis, sign)) = facet.axis {
-        // In an axis-aligned plane the reciprocal is known, to the bit.
-        let inverse = &rays.inverse[axis][chunk];
+        // In an axis-aligned plane both are known, to the bit.
+        let (direction, inverse) = (&rays.direction[axis][chunk], &rays.inverse[axis][chunk]);
         for l in 0..LANES {
+            slope[l] = sign * direction[l];
             t[l] = above * (sign * inverse[l]);
         }
     } else {
         for l in 0..LANES {
+            slope[l] = nx * x[l] + ny * y[l] + nz * z[l];
             t[l] = above * (1.0 / slope[l]);
         }
     }

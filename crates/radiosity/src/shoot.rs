@@ -2,13 +2,16 @@
 
 use crate::bundle::{Rays, WIDTH};
 use crate::environment::LocalEnvironment;
+use crate::form_factors::FormFactors;
+use crate::grid::Side;
 use crate::hemisphere::Hemisphere;
+use crate::landing::land;
 use crate::mask::Mask;
 use crate::plain::cast_pixel;
 use crate::shot::{Shot, Source, Tally};
 use crate::space::Space;
 use crate::tree::Waiting;
-use crate::walk::{LANES, Walks};
+use crate::walk::Walk;
 use crate::work::Operation;
 
 /// Cast the rays of all true pixels of `mask` from `source` through `environment`.
@@ -31,33 +34,27 @@ pub fn shoot(
     mask: &Mask,
 ) -> Shot {
     let frame = hemisphere.frame(source.centre, source.normal);
+    let form_factors = FormFactors::new(Tally::places(environment), hemisphere);
     let mut volley = Volley {
         space,
         environment,
-        hemisphere,
-        source,
+        own_polygon: source.polygon,
         own_piece: environment.piece(source.polygon),
-        start: space.grid.cell_of(source.centre),
         rays: Rays::from(source.centre, frame),
         waiting: Waiting::default(),
-        walks: Walks::new(&space.grid, environment.block, source.centre),
-        tally: Tally::new(environment, mask),
+        walk: Walk::new(&space.grid, environment.block, source.centre),
+        tally: Tally::new(environment, mask, form_factors),
     };
     let bounds = space.grid.bounds(&environment.block);
     for (bundle, &word) in mask.words().iter().enumerate().filter(|&(_, &word)| word != 0) {
         volley.rays.aim(&hemisphere.bundles, bundle, word, &bounds);
-        if !volley.find_hits() {
+        if volley.find_hits() {
+            volley.count(bundle, word);
+        } else {
             volley.one_by_one(bundle, word);
-            continue;
-        }
-        for first in (0..WIDTH).step_by(LANES) {
-            volley.walk(first, word >> first);
-            for lane in (first..first + LANES).filter(|lane| word >> lane & 1 == 1) {
-                volley.end(lane, bundle * WIDTH + lane);
-            }
         }
     }
-    volley.tally.finish(environment, mask)
+    volley.tally.finish()
 }
 
 /// Polygons that a bundle is tested against before its rays go one by one: some two thirds of what
@@ -68,16 +65,14 @@ const MOST_POLYGONS: usize = 128;
 struct Volley<'a> {
     space: &'a Space,
     environment: &'a LocalEnvironment,
-    hemisphere: &'a Hemisphere,
-    source: &'a Source,
-    /// The source's own polygon among those of the environment, which its rays cannot hit.
+    /// The source's own polygon, which its rays cannot hit.
+    own_polygon: u32,
+    /// The same among those of the environment.
     own_piece: Option<u32>,
-    /// The cell of the source.
-    start: [u32; 3],
     rays: Rays,
     waiting: Waiting,
-    walks: Walks<'a>,
-    tally: Tally,
+    walk: Walk<'a>,
+    tally: Tally<'a>,
 }
 
 impl Volley<'_> {
@@ -98,51 +93,23 @@ impl Volley<'_> {
 
     /// Cast the rays of a bundle plainly.
     fn one_by_one(&mut self, bundle: usize, word: u64) {
-        let Volley { space, environment, hemisphere, source, rays, tally, .. } = self;
+        let Volley { space, environment, own_polygon, rays, tally, .. } = self;
         for lane in (0..WIDTH).filter(|lane| word >> lane & 1 == 1) {
-            let pixel = bundle * WIDTH + lane;
-            let pixel = (pixel as u32, hemisphere.weights[pixel]);
-            cast_pixel(space, environment, &rays.ray(lane), source.polygon, pixel, tally);
+            let pixel = (bundle * WIDTH + lane) as u32;
+            cast_pixel(space, environment, &rays.ray(lane), *own_polygon, pixel, tally);
         }
     }
 
-    /// Walk the rays from `first` on that are `cast`, from the source or from where they enter.
-    fn walk(&mut self, first: usize, cast: u64) {
-        let Volley { space, environment, start, rays, walks, .. } = self;
-        if environment.block.contains(*start) {
-            walks.start_together(*start, &rays.lanes(first), cast);
-        } else {
-            walks.clear();
-            for lane in (0..LANES).filter(|lane| cast >> lane & 1 == 1) {
-                let ray = rays.ray(first + lane);
-                if let Some(passage) = space.grid.enter(&environment.block, &ray, *start) {
-                    let hit = rays.hit(first + lane);
-                    let distance = hit.map_or(f64::INFINITY, |hit| hit.distance);
-                    walks.start(lane, &ray, passage.cell, passage.next, distance);
-                }
-            }
+    /// Walk the rays of a bundle, and count what they do and how they end.
+    fn count(&mut self, bundle: usize, word: u64) {
+        let Volley { environment, rays, walk, tally, .. } = self;
+        let walked = walk.run(rays, word);
+        tally.work.count(Operation::Ray, u64::from(word.count_ones()));
+        tally.work.count(Operation::CellStep, walked.steps);
+        tally.work.count(Operation::PolygonTest, walked.tests);
+        for (side, &left) in Side::ALL.into_iter().zip(&walked.left).filter(|&(_, &rays)| rays != 0) {
+            tally.leave(side, bundle, left);
         }
-        walks.run();
-    }
-
-    /// Count how the ray of a pixel ends.
-    fn end(&mut self, lane: usize, pixel: usize) {
-        let Volley { space, environment, hemisphere, rays, walks, tally, .. } = self;
-        let counted = walks.counted(lane % LANES);
-        tally.work(Operation::Ray, 1);
-        tally.work(Operation::CellStep, counted.steps);
-        tally.work(Operation::PolygonTest, counted.tests);
-        let weight = hemisphere.weights[pixel];
-        let side = match (counted.side, rays.hit(lane)) {
-            (None, Some(hit)) if counted.steps > 0 => {
-                let point = rays.ray(lane).at(hit.distance);
-                let patch = environment.patch_of(hit.piece, point).filter(|_| hit.front);
-                return tally.hit(patch, weight);
-            }
-            (Some(side), _) if counted.steps > 0 => side,
-            // The ray never enters.
-            _ => space.grid.side_towards(&environment.block, &rays.ray(lane)),
-        };
-        tally.leaves(environment, side, pixel as u32, weight);
+        land(rays, environment, walked.ended, |patch, rays| tally.hit(patch, bundle, rays));
     }
 }

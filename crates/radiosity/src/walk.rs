@@ -1,282 +1,321 @@
-//! Walks of several rays from one source through the grid, side by side, to count what the virtual
-//! processor does: [`Passage`](crate::grid::Passage) without testing a polygon.
+//! The walk of a bundle's rays through the grid, those in the same cell together: where they end, and
+//! what the virtual processor is charged for. It is [`Passage`](crate::grid::Passage) for 64 rays at
+//! a time, without testing a polygon.
 
 #![allow(clippy::needless_range_loop, reason = "plain loops become vector instructions")]
 
 use glam::DVec3;
 use multiversion::multiversion;
 
-use crate::facets::Ray;
+use crate::bundle::{BIT, LANES, Rays, WIDTH, united};
 use crate::grid::{Block, Grid, Side};
 
-/// Rays done at a time.
-pub(crate) const LANES: usize = 8;
-
-type Lanes = [f64; LANES];
-type Whole = [i64; LANES];
-
-/// Rays on their way, each in its own cell.
-pub(crate) struct Walks<'a> {
+/// Walks through one block from one source.
+pub(crate) struct Walk<'a> {
     grid: &'a Grid,
     block: Block,
-    /// Distance from the origin to each plane, axis after axis; one more at either end of an axis
-    /// stands for the plane that a ray which leaves the grid would cross next.
-    planes: Vec<f64>,
-    /// Where the planes of each axis start.
-    first: [i64; 3],
-    /// By how much the number of a cell changes at a step up each axis.
-    stride: [i64; 3],
-    state: State,
+    /// The cell of the source.
+    start: [u32; 3],
+    /// Distance from the source to each plane of the grid, along its axis.
+    planes: [Vec<f64>; 3],
+    here: Vec<Group>,
+    /// Where groups go from here; rays that come to one cell from several go on as one group.
+    ahead: Vec<Group>,
+    /// Room for the columns of cells that rays enter, along either axis of the side they come by.
+    columns: [Vec<Column>; 2],
 }
 
-/// What each ray is about to do, and what it did.
+/// Rays of a bundle, a bit each, that are in the same cell.
+#[derive(Clone, Copy)]
+struct Group {
+    cell: [u32; 3],
+    rays: u64,
+}
+
+/// Rays of a bundle that are at the same cell of an axis.
+type Column = (u32, u64);
+
+/// Which way rays go along an axis.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Way {
+    Down,
+    Level,
+    Up,
+}
+
+/// What came of a walk.
 #[derive(Default)]
-struct State {
-    walking: [u64; LANES],
-    /// Where to stop.
-    distance: Lanes,
-    /// Cell.
-    at: Whole,
-    /// By axis: distance of the next crossing, the plane after it, cells left before the block ends.
-    next: [Lanes; 3],
-    plane: [Whole; 3],
-    left: [Whole; 3],
-    /// By axis: 1 / direction, and by how much plane and cell change at a crossing.
-    inverse: [Lanes; 3],
-    step: [Whole; 3],
-    stride: [Whole; 3],
-    steps: [u64; LANES],
-    tests: [u64; LANES],
-    /// The axis of the crossing that left the block; 3 while none did.
-    out: [u64; LANES],
-}
-
-/// Directions of several rays and how far each goes.
-pub(crate) struct Aim<'a> {
-    pub(crate) direction: [&'a Lanes; 3],
-    pub(crate) inverse: [&'a Lanes; 3],
-    pub(crate) distance: Lanes,
-}
-
-/// What lies around a cell along one axis.
-struct Ahead {
-    /// Distances of the planes below and above.
-    planes: [f64; 2],
-    /// The place of the plane below.
-    place: i64,
-    /// Cells left before the block ends, downwards and upwards.
-    left: [i64; 2],
-    /// By how much the cell changes at a crossing upwards.
-    stride: i64,
-}
-
-/// What a walk counted.
-pub(crate) struct Counted {
+pub(crate) struct Walked {
+    /// Cells come through, over all rays.
     pub(crate) steps: u64,
+    /// Polygons in them.
     pub(crate) tests: u64,
-    /// The side by which the ray left the block before it had gone its distance.
-    pub(crate) side: Option<Side>,
+    /// Rays that end on their hit.
+    pub(crate) ended: u64,
+    /// Rays that leave the block, by side.
+    pub(crate) left: [u64; 6],
 }
 
-impl<'a> Walks<'a> {
-    /// Walks through a block from a source.
-    pub(crate) fn new(grid: &'a Grid, block: Block, origin: DVec3) -> Walks<'a> {
-        let mut planes = Vec::new();
-        let mut first = [0; 3];
-        for axis in 0..3 {
-            planes.push(f64::INFINITY);
-            first[axis] = planes.len() as i64;
-            planes.extend(grid.planes[axis].iter().map(|plane| plane - origin[axis]));
-            planes.push(f64::INFINITY);
+impl<'a> Walk<'a> {
+    pub(crate) fn new(grid: &'a Grid, block: Block, origin: DVec3) -> Walk<'a> {
+        let relative =
+            |axis: usize| grid.planes[axis].iter().map(|plane| plane - origin[axis]).collect();
+        Walk {
+            grid,
+            block,
+            start: grid.cell_of(origin),
+            planes: std::array::from_fn(relative),
+            here: Vec::new(),
+            ahead: Vec::new(),
+            columns: [Vec::new(), Vec::new()],
         }
-        let [nx, ny, _] = grid.cells().map(i64::from);
-        let stride = [1, nx, nx * ny];
-        Walks { grid, block, planes, first, stride, state: State::default() }
     }
 
-    /// Forget the walks of before.
-    pub(crate) fn clear(&mut self) {
-        self.state = State::default();
-    }
-
-    /// Start walks in the cell of the source itself, for those lanes that are `cast`; each goes as far
-    /// as its `distance`.
-    pub(crate) fn start_together(&mut self, cell: [u32; 3], aim: &Aim, cast: u64) {
-        let ahead = std::array::from_fn(|axis| {
-            let (low, high) = (self.block.low[axis], self.block.high[axis]);
-            let place = self.first[axis] + i64::from(cell[axis]);
-            Ahead {
-                planes: [place, place + 1].map(|plane| self.planes[plane as usize]),
-                place,
-                left: [cell[axis] - low, high - 1 - cell[axis]].map(i64::from),
-                stride: self.stride[axis],
+    /// Walk those rays of a bundle that are `cast`, each to its hit or out of the block.
+    pub(crate) fn run(&mut self, rays: &Rays, cast: u64) -> Walked {
+        let hits = rays.hits();
+        let mut walked = Walked::default();
+        let mut rest = cast;
+        while rest != 0 {
+            // Those that go the same way on every axis go together: mostly all of them.
+            let first = rest & rest.wrapping_neg();
+            let ways = std::array::from_fn(|axis| Way::of(rays, axis, first));
+            let alike = (0..3).fold(rest, |alike, axis| alike & ways[axis].all(rays, axis));
+            rest &= !alike;
+            self.enter(rays, ways, alike, &mut walked);
+            while !self.here.is_empty() {
+                for group in 0..self.here.len() {
+                    self.step(rays, ways, self.here[group], hits, &mut walked);
+                }
+                self.here.clear();
+                std::mem::swap(&mut self.here, &mut self.ahead);
             }
+        }
+        walked
+    }
+
+    /// Go on from one cell.
+    fn step(&mut self, rays: &Rays, ways: [Way; 3], group: Group, hits: u64, walked: &mut Walked) {
+        let count = u64::from(group.rays.count_ones());
+        walked.steps += count;
+        walked.tests += count * self.grid.polygons(group.cell).len() as u64;
+        let ahead = std::array::from_fn(|axis| match ways[axis] {
+            Way::Down => self.planes[axis][group.cell[axis] as usize],
+            Way::Level => f64::INFINITY,
+            Way::Up => self.planes[axis][group.cell[axis] as usize + 1],
         });
-        self.state.at = [self.grid.index(cell) as i64; LANES];
-        start_together(&mut self.state, &ahead, aim, cast);
+        let [there, x, y] = next_crossings(rays, group.rays, ahead);
+        let ended = there & group.rays & hits;
+        walked.ended |= ended;
+        let going = group.rays & !ended;
+        for (axis, crossing) in [x, y & !x, !x & !y].into_iter().enumerate() {
+            let crossing = Group { rays: going & crossing, ..group };
+            if crossing.rays != 0 {
+                self.cross(axis, ways[axis] == Way::Up, crossing, walked);
+            }
+        }
     }
 
-    /// Start a walk where a ray enters the block: in `cell`, its next crossings at `next`.
+    /// Take rays over a side of their cell, or out of the block.
     #[inline]
-    pub(crate) fn start(
-        &mut self,
-        lane: usize,
-        ray: &Ray,
-        cell: [u32; 3],
-        next: [f64; 3],
-        distance: f64,
-    ) {
-        let state = &mut self.state;
-        state.walking[lane] = u64::MAX;
-        state.distance[lane] = distance;
-        state.at[lane] = self.grid.index(cell) as i64;
-        state.out[lane] = 3;
+    fn cross(&mut self, axis: usize, upper: bool, mut group: Group, walked: &mut Walked) {
+        let cell = &mut group.cell[axis];
+        let end = if upper { self.block.high[axis] - 1 } else { self.block.low[axis] };
+        if *cell == end {
+            walked.left[Side { axis, upper }.index()] |= group.rays;
+            return;
+        }
+        *cell = if upper { *cell + 1 } else { *cell - 1 };
+        match self.ahead.iter_mut().find(|other| other.cell == group.cell) {
+            Some(other) => other.rays |= group.rays,
+            None => self.ahead.push(group),
+        }
+    }
+
+    /// Put rays into the cells in which they enter the block, as [`Grid::enter`] does.
+    fn enter(&mut self, rays: &Rays, ways: [Way; 3], cast: u64, walked: &mut Walked) {
+        if self.block.contains(self.start) {
+            self.here.push(Group { cell: self.start, rays: cast });
+            return;
+        }
+        let mut never = cast;
+        if let Some(sides) = self.sides_ahead(ways) {
+            for axis in 0..3 {
+                let Some(plane) = sides[axis] else { continue };
+                // By this side enter those that cross it last.
+                let mut through = cast;
+                for other in (0..3).filter(|&other| other != axis) {
+                    if let Some(before) = sides[other] {
+                        through &= self.crossed(rays, (other, before), (axis, plane));
+                    }
+                }
+                if through != 0 {
+                    never &= !self.enter_by(rays, ways, (axis, plane), through);
+                }
+            }
+        }
+        if never != 0 {
+            let side = self.block.side_towards(self.start, ways[0] == Way::Up);
+            walked.left[side.index()] |= never;
+        }
+    }
+
+    /// The plane that rays have yet to cross into the block on each axis; `None` if on one of them
+    /// they lead away from it.
+    fn sides_ahead(&self, ways: [Way; 3]) -> Option<[Option<u32>; 3]> {
+        let mut sides = [None; 3];
         for axis in 0..3 {
-            let upper = ray.direction[axis] > 0.0;
-            let step = if upper { 1 } else { -1 };
             let (low, high) = (self.block.low[axis], self.block.high[axis]);
-            let left = if upper { high - 1 - cell[axis] } else { cell[axis] - low };
-            state.next[axis][lane] = next[axis];
-            state.plane[axis][lane] =
-                self.first[axis] + i64::from(cell[axis]) + i64::from(upper) + step;
-            state.left[axis][lane] = i64::from(left);
-            state.inverse[axis][lane] = ray.inverse[axis];
-            state.step[axis][lane] = step;
-            state.stride[axis][lane] = step * self.stride[axis];
+            sides[axis] = match ways[axis] {
+                _ if (low..high).contains(&self.start[axis]) => None,
+                Way::Up if self.start[axis] < low => Some(low),
+                Way::Down if self.start[axis] >= high => Some(high),
+                _ => return None,
+            };
+        }
+        Some(sides)
+    }
+
+    /// Put rays that complete their entry at a plane into their cells behind it; those that were in
+    /// the block's part of it.
+    fn enter_by(&mut self, rays: &Rays, ways: [Way; 3], entry: (usize, u32), cast: u64) -> u64 {
+        let (axis, plane) = entry;
+        let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+        let mut columns = std::mem::take(&mut self.columns);
+        self.columns_along(u, rays, ways[u], entry, cast, &mut columns[0]);
+        self.columns_along(v, rays, ways[v], entry, cast, &mut columns[1]);
+        let mut entered = 0;
+        let mut cell = [0; 3];
+        cell[axis] = if ways[axis] == Way::Up { plane } else { plane - 1 };
+        for &(i, in_column) in &columns[0] {
+            for &(j, in_row) in &columns[1] {
+                (cell[u], cell[v]) = (i, j);
+                let rays = in_column & in_row;
+                if rays != 0 && self.block.contains(cell) {
+                    self.here.push(Group { cell, rays });
+                    entered |= rays;
+                }
+            }
+        }
+        self.columns = columns;
+        entered
+    }
+
+    /// The cells of an axis at which rays are when they cross the plane `entry` of another axis.
+    fn columns_along(
+        &self,
+        axis: usize,
+        rays: &Rays,
+        way: Way,
+        entry: (usize, u32),
+        cast: u64,
+        columns: &mut Vec<Column>,
+    ) {
+        columns.clear();
+        let start = self.start[axis];
+        let (low, high) = (self.block.low[axis], self.block.high[axis]);
+        if way == Way::Level {
+            columns.push((start, cast));
+            return;
+        }
+        let up = way == Way::Up;
+        // Those that have come as far as a cell.
+        let come_to = |cell: u32, among: u64| match cell == start {
+            true => among,
+            false => among & self.crossed(rays, (axis, cell + u32::from(!up)), entry),
+        };
+        // From the block's first cell on their way to its last; past the grid's last there is none.
+        let cells = self.grid.cells()[axis];
+        let (mut cell, end, last) =
+            if up { (start.max(low), high - 1, cells - 1) } else { (start.min(high - 1), low, 0) };
+        let mut rest = come_to(cell, cast);
+        loop {
+            let next = if up { cell + 1 } else { cell.saturating_sub(1) };
+            let beyond = if cell == last { 0 } else { come_to(next, rest) };
+            columns.push((cell, rest & !beyond));
+            if cell == end || beyond == 0 {
+                return;
+            }
+            (cell, rest) = (next, beyond);
         }
     }
 
-    /// Walk all to their ends.
-    pub(crate) fn run(&mut self) {
-        run(&mut self.state, &self.planes, &self.grid.starts);
-    }
-
-    /// What a walk counted.
-    #[inline]
-    pub(crate) fn counted(&self, lane: usize) -> Counted {
-        let state = &self.state;
-        let axis = state.out[lane] as usize;
-        let side = (axis < 3).then(|| Side { axis, upper: state.step[axis][lane] > 0 });
-        Counted { steps: state.steps[lane], tests: state.tests[lane], side }
+    /// The rays whose crossing of one plane comes before that of another, each an axis and a number.
+    fn crossed(&self, rays: &Rays, first: (usize, u32), second: (usize, u32)) -> u64 {
+        let distance = |(axis, plane): (usize, u32)| (axis, self.planes[axis][plane as usize]);
+        crossed(rays, distance(first), distance(second))
     }
 }
 
-/// Of three values the one whose mask is all ones, the other masks being zero.
-macro_rules! choose {
-    ($masks:expr, $l:expr; $x:expr, $y:expr, $z:expr) => {
-        ($masks[0][$l] & $x) | ($masks[1][$l] & $y) | ($masks[2][$l] & $z)
-    };
-}
+impl Way {
+    /// The way of the ray in `bit`.
+    fn of(rays: &Rays, axis: usize, bit: u64) -> Way {
+        if rays.level[axis] & bit != 0 {
+            Way::Level
+        } else if rays.up[axis] & bit != 0 {
+            Way::Up
+        } else {
+            Way::Down
+        }
+    }
 
-/// Take the chosen axis on to its next crossing.
-macro_rules! advance {
-    ($state:expr, $axis:literal, $chosen:expr, $ahead:expr, $at:expr) => {
-        let (mut next, mut plane) = ($state.next[$axis], $state.plane[$axis]);
-        let mut left = $state.left[$axis];
-        let (inverse, step) = ($state.inverse[$axis], $state.step[$axis]);
-        let (stride, chosen) = ($state.stride[$axis], $chosen[$axis]);
-        for l in 0..LANES {
-            let crossing = ($ahead[l] * inverse[l]).to_bits();
-            next[l] = f64::from_bits((crossing & chosen[l]) | (next[l].to_bits() & !chosen[l]));
+    /// All rays that go this way.
+    fn all(self, rays: &Rays, axis: usize) -> u64 {
+        match self {
+            Way::Down => !rays.up[axis] & !rays.level[axis],
+            Way::Level => rays.level[axis],
+            Way::Up => rays.up[axis],
         }
-        for l in 0..LANES {
-            plane[l] += step[l] & chosen[l] as i64;
-            left[l] -= (chosen[l] & 1) as i64;
-            $at[l] += stride[l] & chosen[l] as i64;
-        }
-        $state.next[$axis] = next;
-        $state.plane[$axis] = plane;
-        $state.left[$axis] = left;
-    };
+    }
 }
 
 // Plain loops over arrays of known length, for the sake of vector instructions.
+
+/// Of rays in a cell, the planes ahead of it at these distances along each axis: those whose hit is
+/// no farther than the nearest crossing; those that cross the plane of x first; of the others, but not
+/// of them alone, those that cross that of y first. Of equal crossings that of the lower axis is first.
 #[multiversion(targets(
     "x86_64+avx512f+avx512dq+avx512vl+avx512bw",
     "x86_64+avx2",
     "aarch64+neon"
 ))]
-fn start_together(state: &mut State, ahead: &[Ahead; 3], aim: &Aim<'_>, cast: u64) {
-    for l in 0..LANES {
-        state.walking[l] = (cast >> l & 1).wrapping_neg();
-    }
-    state.distance = aim.distance;
-    state.out = [3; LANES];
-    state.steps = [0; LANES];
-    state.tests = [0; LANES];
-    for axis in 0..3 {
-        let Ahead { planes, place, left, stride } = &ahead[axis];
-        let (direction, inverse) = (aim.direction[axis], aim.inverse[axis]);
-        let mut next = [0.0f64; LANES];
-        for l in 0..LANES {
-            let plane = if direction[l] > 0.0 { planes[1] } else { planes[0] };
-            let crossing = plane * inverse[l];
-            next[l] = if direction[l] == 0.0 { f64::INFINITY } else { crossing };
+fn next_crossings(rays: &Rays, group: u64, ahead: [f64; 3]) -> [u64; 3] {
+    let (mut there, mut first_x, mut first_y) = ([0; LANES], [0; LANES], [0; LANES]);
+    for chunk in 0..WIDTH / LANES {
+        if group >> (chunk * LANES) & 0xff == 0 {
+            continue;
         }
-        state.next[axis] = next;
-        state.inverse[axis] = *inverse;
-        let (mut step, mut strides) = ([0; LANES], [0; LANES]);
-        let (mut lefts, mut after) = ([0; LANES], [0; LANES]);
+        let [x, y, z] = [0, 1, 2].map(|axis| &rays.inverse[axis][chunk]);
+        let (distance, bit) = (&rays.distance[chunk], &BIT[chunk]);
         for l in 0..LANES {
-            let upper = direction[l] > 0.0;
-            step[l] = if upper { 1 } else { -1 };
-            strides[l] = if upper { *stride } else { -*stride };
-            lefts[l] = if upper { left[1] } else { left[0] };
-            after[l] = if upper { *place + 2 } else { *place - 1 };
+            let (x, y, z) = (ahead[0] * x[l], ahead[1] * y[l], ahead[2] * z[l]);
+            let y_or_z = if y <= z { y } else { z };
+            let nearest = if x <= y_or_z { x } else { y_or_z };
+            there[l] |= if distance[l] <= nearest { bit[l] } else { 0 };
+            first_x[l] |= if x <= y_or_z { bit[l] } else { 0 };
+            first_y[l] |= if y <= z { bit[l] } else { 0 };
         }
-        (state.step[axis], state.stride[axis]) = (step, strides);
-        (state.left[axis], state.plane[axis]) = (lefts, after);
     }
+    [united(there), united(first_x), united(first_y)]
 }
 
+/// The rays whose crossing of one plane, given by its axis and its distance along it, comes before
+/// that of another: sorted by distance, then by axis.
 #[multiversion(targets(
     "x86_64+avx512f+avx512dq+avx512vl+avx512bw",
     "x86_64+avx2",
     "aarch64+neon"
 ))]
-fn run(state: &mut State, planes: &[f64], starts: &[u32]) {
-    let (mut walking, mut out, mut at) = (state.walking, state.out, state.at);
-    let (mut steps, mut tests) = (state.steps, state.tests);
-    let distance = state.distance;
-    while walking != [0; LANES] {
+fn crossed(rays: &Rays, first: (usize, f64), second: (usize, f64)) -> u64 {
+    let (mut less, mut equal) = ([0; LANES], [0; LANES]);
+    for chunk in 0..WIDTH / LANES {
+        let (a, b) = (&rays.inverse[first.0][chunk], &rays.inverse[second.0][chunk]);
+        let bit = &BIT[chunk];
         for l in 0..LANES {
-            let cell = at[l] as usize;
-            tests[l] += u64::from(starts[cell + 1] - starts[cell]) & walking[l];
+            let (a, b) = (first.1 * a[l], second.1 * b[l]);
+            less[l] |= if a < b { bit[l] } else { 0 };
+            equal[l] |= if a == b { bit[l] } else { 0 };
         }
-        let mut chosen = [[0u64; LANES]; 3];
-        let mut after = [0u64; LANES];
-        let [x, y, z] = state.next;
-        for l in 0..LANES {
-            // The nearest crossing; of equal ones that of the lower axis.
-            chosen[0][l] = u64::from((x[l] <= y[l]) & (x[l] <= z[l])).wrapping_neg();
-            chosen[1][l] = u64::from(y[l] <= z[l]).wrapping_neg() & !chosen[0][l];
-            chosen[2][l] = !(chosen[0][l] | chosen[1][l]);
-        }
-        let [left_x, left_y, left_z] = state.left;
-        let [plane_x, plane_y, plane_z] = state.plane;
-        for l in 0..LANES {
-            let crossing = choose!(chosen, l; x[l].to_bits(), y[l].to_bits(), z[l].to_bits());
-            let there = u64::from(distance[l] <= f64::from_bits(crossing)).wrapping_neg();
-            let left = choose!(chosen, l; left_x[l] as u64, left_y[l] as u64, left_z[l] as u64);
-            let leaves = u64::from(left == 0).wrapping_neg() & !there & walking[l];
-            let axis = (chosen[1][l] & 1) | (chosen[2][l] & 2);
-            steps[l] += walking[l] & 1;
-            out[l] = (leaves & axis) | (!leaves & out[l]);
-            walking[l] &= !there & !leaves;
-        }
-        for l in 0..LANES {
-            chosen[0][l] &= walking[l];
-            chosen[1][l] &= walking[l];
-            chosen[2][l] &= walking[l];
-            after[l] = choose!(chosen, l; plane_x[l] as u64, plane_y[l] as u64, plane_z[l] as u64);
-        }
-        let mut ahead = [0.0f64; LANES];
-        for l in 0..LANES {
-            ahead[l] = planes[after[l] as usize];
-        }
-        advance!(state, 0, chosen, ahead, at);
-        advance!(state, 1, chosen, ahead, at);
-        advance!(state, 2, chosen, ahead, at);
     }
-    (state.walking, state.out, state.steps, state.tests) = (walking, out, steps, tests);
+    united(less) | if first.0 < second.0 { united(equal) } else { 0 }
 }
