@@ -8,7 +8,7 @@ pub(crate) enum FormFactors<'a> {
     /// Of pixels of one weight it is enough to count them; `sums` holds the sum of so many of them,
     /// added one by one.
     Counted { pixels: Vec<u32>, sums: &'a [f64] },
-    /// Pixels added one by one.
+    /// Pixels added one by one; unequal weights are such that the order does not matter.
     Summed { sums: Vec<f64>, weights: &'a [f64] },
 }
 

@@ -234,7 +234,10 @@ fn hemicube(side: u32) -> (Vec<DVec3>, Vec<f64>) {
     // Delta form factor up to a constant: the height above the source's plane over distance⁴.
     let raw: Vec<f64> = points.iter().map(|p| p.z / p.length_squared().powi(2)).collect();
     let sum: f64 = raw.iter().sum();
-    (points.iter().map(|p| p.normalize()).collect(), raw.iter().map(|w| w / sum).collect())
+    // Multiples of 2⁻⁵³: their sums are exact, in whatever order pixels are added up.
+    let unit = 2f64.powi(53);
+    let weights = raw.iter().map(|w| (w / sum * unit).round() / unit).collect();
+    (points.iter().map(|p| p.normalize()).collect(), weights)
 }
 
 #[cfg(test)]

@@ -1,5 +1,8 @@
 //! Shooting a source through a local environment (§3.3, §4.2.3).
 
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, dispatch};
+
 use crate::bundle::{Rays, WIDTH};
 use crate::environment::LocalEnvironment;
 use crate::form_factors::FormFactors;
@@ -7,6 +10,7 @@ use crate::grid::Side;
 use crate::hemisphere::Hemisphere;
 use crate::landing::land;
 use crate::mask::Mask;
+use crate::nearest::Nearest;
 use crate::plain::cast_pixel;
 use crate::shot::{Shot, Source, Tally};
 use crate::space::Space;
@@ -33,6 +37,19 @@ pub fn shoot(
     source: &Source,
     mask: &Mask,
 ) -> Shot {
+    dispatch!(Level::new(), simd => shoot_on(simd, space, environment, hemisphere, source, mask))
+}
+
+/// [`shoot`] with the vector instructions that the host has.
+#[inline(always)]
+fn shoot_on<S: Simd>(
+    simd: S,
+    space: &Space,
+    environment: &LocalEnvironment,
+    hemisphere: &Hemisphere,
+    source: &Source,
+    mask: &Mask,
+) -> Shot {
     let frame = hemisphere.frame(source.centre, source.normal);
     let form_factors = FormFactors::new(Tally::places(environment), hemisphere);
     let mut volley = Volley {
@@ -41,15 +58,15 @@ pub fn shoot(
         own_polygon: source.polygon,
         own_piece: environment.piece(source.polygon),
         rays: Rays::from(source.centre, frame),
+        nearest: Nearest::new(),
         waiting: Waiting::default(),
         walk: Walk::new(&space.grid, environment.block, source.centre),
         tally: Tally::new(environment, mask, form_factors),
     };
-    let bounds = space.grid.bounds(&environment.block);
     for (bundle, &word) in mask.words().iter().enumerate().filter(|&(_, &word)| word != 0) {
-        volley.rays.aim(&hemisphere.bundles, bundle, word, &bounds);
-        if volley.find_hits() {
-            volley.count(bundle, word);
+        volley.rays.aim(simd, &hemisphere.bundles, bundle);
+        if volley.find_nearest(simd, word) {
+            volley.count(simd, bundle, word);
         } else {
             volley.one_by_one(bundle, word);
         }
@@ -70,6 +87,7 @@ struct Volley<'a> {
     /// The same among those of the environment.
     own_piece: Option<u32>,
     rays: Rays,
+    nearest: Nearest,
     waiting: Waiting,
     walk: Walk<'a>,
     tally: Tally<'a>,
@@ -78,16 +96,17 @@ struct Volley<'a> {
 impl Volley<'_> {
     /// Test the bundle against the polygons that it can meet, near ones first; whether they were few
     /// enough.
-    fn find_hits(&mut self) -> bool {
-        let Volley { space, environment, own_piece, rays, waiting, .. } = self;
-        let (pyramid, limit) = (rays.pyramid, rays.limit);
+    #[inline(always)]
+    fn find_nearest<S: Simd>(&mut self, simd: S, cast: u64) -> bool {
+        let Volley { space, environment, own_piece, rays, nearest, waiting, .. } = self;
+        nearest.clear(simd, cast);
         let mut polygons = 0;
-        environment.tree.visit(&pyramid, limit, waiting, |piece| {
+        environment.tree.visit(simd, &rays.pyramid, waiting, |piece| {
             if Some(piece) != *own_piece {
-                rays.meet(&space.facets, environment.polygon(piece), piece);
+                nearest.meet(simd, rays, &space.facets, environment.polygon(piece), piece);
             }
             polygons += 1;
-            (polygons <= MOST_POLYGONS).then_some(rays.limit)
+            (polygons <= MOST_POLYGONS).then_some(nearest.limit)
         })
     }
 
@@ -101,15 +120,18 @@ impl Volley<'_> {
     }
 
     /// Walk the rays of a bundle, and count what they do and how they end.
-    fn count(&mut self, bundle: usize, word: u64) {
-        let Volley { environment, rays, walk, tally, .. } = self;
-        let walked = walk.run(rays, word);
+    #[inline(always)]
+    fn count<S: Simd>(&mut self, simd: S, bundle: usize, word: u64) {
+        let Volley { environment, rays, nearest, walk, tally, .. } = self;
+        let walked = walk.run(simd, rays, nearest, word);
         tally.work.count(Operation::Ray, u64::from(word.count_ones()));
         tally.work.count(Operation::CellStep, walked.steps);
         tally.work.count(Operation::PolygonTest, walked.tests);
         for (side, &left) in Side::ALL.into_iter().zip(&walked.left).filter(|&(_, &rays)| rays != 0) {
             tally.leave(side, bundle, left);
         }
-        land(rays, environment, walked.ended, |patch, rays| tally.hit(patch, bundle, rays));
+        land(simd, rays, nearest, environment, walked.ended, |patch, rays| {
+            tally.hit(patch, bundle, rays);
+        });
     }
 }

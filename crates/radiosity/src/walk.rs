@@ -2,13 +2,12 @@
 //! what the virtual processor is charged for. It is [`Passage`](crate::grid::Passage) for 64 rays at
 //! a time, without testing a polygon.
 
-#![allow(clippy::needless_range_loop, reason = "plain loops become vector instructions")]
-
+use fearless_simd::prelude::*;
 use glam::DVec3;
-use multiversion::multiversion;
 
-use crate::bundle::{BIT, LANES, Rays, WIDTH, united};
+use crate::bundle::{CHUNKS, LANES, Rays, of_chunk};
 use crate::grid::{Block, Grid, Side};
+use crate::nearest::Nearest;
 
 /// Walks through one block from one source.
 pub(crate) struct Walk<'a> {
@@ -72,8 +71,15 @@ impl<'a> Walk<'a> {
     }
 
     /// Walk those rays of a bundle that are `cast`, each to its hit or out of the block.
-    pub(crate) fn run(&mut self, rays: &Rays, cast: u64) -> Walked {
-        let hits = rays.hits();
+    #[inline(always)]
+    pub(crate) fn run<S: Simd>(
+        &mut self,
+        simd: S,
+        rays: &Rays,
+        nearest: &Nearest,
+        cast: u64,
+    ) -> Walked {
+        let found = nearest.found();
         let mut walked = Walked::default();
         let mut rest = cast;
         while rest != 0 {
@@ -82,10 +88,13 @@ impl<'a> Walk<'a> {
             let ways = std::array::from_fn(|axis| Way::of(rays, axis, first));
             let alike = (0..3).fold(rest, |alike, axis| alike & ways[axis].all(rays, axis));
             rest &= !alike;
-            self.enter(rays, ways, alike, &mut walked);
+            self.enter(simd, rays, ways, alike, &mut walked);
             while !self.here.is_empty() {
                 for group in 0..self.here.len() {
-                    self.step(rays, ways, self.here[group], hits, &mut walked);
+                    let Group { cell, rays: here } = self.here[group];
+                    let ahead = self.planes_ahead(ways, cell);
+                    let crossings = next_crossings(simd, rays, nearest, here, ahead);
+                    self.step(ways, self.here[group], crossings, found, &mut walked);
                 }
                 self.here.clear();
                 std::mem::swap(&mut self.here, &mut self.ahead);
@@ -94,18 +103,30 @@ impl<'a> Walk<'a> {
         walked
     }
 
+    /// The planes ahead of rays in a cell.
+    #[inline(always)]
+    fn planes_ahead(&self, ways: [Way; 3], cell: [u32; 3]) -> [f64; 3] {
+        std::array::from_fn(|axis| match ways[axis] {
+            Way::Down => self.planes[axis][cell[axis] as usize],
+            Way::Level => f64::INFINITY,
+            Way::Up => self.planes[axis][cell[axis] as usize + 1],
+        })
+    }
+
     /// Go on from one cell.
-    fn step(&mut self, rays: &Rays, ways: [Way; 3], group: Group, hits: u64, walked: &mut Walked) {
+    #[inline(always)]
+    fn step(
+        &mut self,
+        ways: [Way; 3],
+        group: Group,
+        [there, x, y]: [u64; 3],
+        found: u64,
+        walked: &mut Walked,
+    ) {
         let count = u64::from(group.rays.count_ones());
         walked.steps += count;
         walked.tests += count * self.grid.polygons(group.cell).len() as u64;
-        let ahead = std::array::from_fn(|axis| match ways[axis] {
-            Way::Down => self.planes[axis][group.cell[axis] as usize],
-            Way::Level => f64::INFINITY,
-            Way::Up => self.planes[axis][group.cell[axis] as usize + 1],
-        });
-        let [there, x, y] = next_crossings(rays, group.rays, ahead);
-        let ended = there & group.rays & hits;
+        let ended = there & group.rays & found;
         walked.ended |= ended;
         let going = group.rays & !ended;
         for (axis, crossing) in [x, y & !x, !x & !y].into_iter().enumerate() {
@@ -133,7 +154,8 @@ impl<'a> Walk<'a> {
     }
 
     /// Put rays into the cells in which they enter the block, as [`Grid::enter`] does.
-    fn enter(&mut self, rays: &Rays, ways: [Way; 3], cast: u64, walked: &mut Walked) {
+    #[inline(always)]
+    fn enter<S: Simd>(&mut self, simd: S, rays: &Rays, ways: [Way; 3], cast: u64, walked: &mut Walked) {
         if self.block.contains(self.start) {
             self.here.push(Group { cell: self.start, rays: cast });
             return;
@@ -146,11 +168,11 @@ impl<'a> Walk<'a> {
                 let mut through = cast;
                 for other in (0..3).filter(|&other| other != axis) {
                     if let Some(before) = sides[other] {
-                        through &= self.crossed(rays, (other, before), (axis, plane));
+                        through &= self.crossed(simd, rays, (other, before), (axis, plane));
                     }
                 }
                 if through != 0 {
-                    never &= !self.enter_by(rays, ways, (axis, plane), through);
+                    never &= !self.enter_by(simd, rays, ways, (axis, plane), through);
                 }
             }
         }
@@ -178,12 +200,13 @@ impl<'a> Walk<'a> {
 
     /// Put rays that complete their entry at a plane into their cells behind it; those that were in
     /// the block's part of it.
-    fn enter_by(&mut self, rays: &Rays, ways: [Way; 3], entry: (usize, u32), cast: u64) -> u64 {
+    #[inline(always)]
+    fn enter_by<S: Simd>(&mut self, simd: S, rays: &Rays, ways: [Way; 3], entry: (usize, u32), cast: u64) -> u64 {
         let (axis, plane) = entry;
         let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
         let mut columns = std::mem::take(&mut self.columns);
-        self.columns_along(u, rays, ways[u], entry, cast, &mut columns[0]);
-        self.columns_along(v, rays, ways[v], entry, cast, &mut columns[1]);
+        self.columns_along(simd, u, rays, ways[u], entry, cast, &mut columns[0]);
+        self.columns_along(simd, v, rays, ways[v], entry, cast, &mut columns[1]);
         let mut entered = 0;
         let mut cell = [0; 3];
         cell[axis] = if ways[axis] == Way::Up { plane } else { plane - 1 };
@@ -202,8 +225,10 @@ impl<'a> Walk<'a> {
     }
 
     /// The cells of an axis at which rays are when they cross the plane `entry` of another axis.
-    fn columns_along(
+    #[inline(always)]
+    fn columns_along<S: Simd>(
         &self,
+        simd: S,
         axis: usize,
         rays: &Rays,
         way: Way,
@@ -222,7 +247,7 @@ impl<'a> Walk<'a> {
         // Those that have come as far as a cell.
         let come_to = |cell: u32, among: u64| match cell == start {
             true => among,
-            false => among & self.crossed(rays, (axis, cell + u32::from(!up)), entry),
+            false => among & self.crossed(simd, rays, (axis, cell + u32::from(!up)), entry),
         };
         // From the block's first cell on their way to its last; past the grid's last there is none.
         let cells = self.grid.cells()[axis];
@@ -241,9 +266,10 @@ impl<'a> Walk<'a> {
     }
 
     /// The rays whose crossing of one plane comes before that of another, each an axis and a number.
-    fn crossed(&self, rays: &Rays, first: (usize, u32), second: (usize, u32)) -> u64 {
+    #[inline(always)]
+    fn crossed<S: Simd>(&self, simd: S, rays: &Rays, first: (usize, u32), second: (usize, u32)) -> u64 {
         let distance = |(axis, plane): (usize, u32)| (axis, self.planes[axis][plane as usize]);
-        crossed(rays, distance(first), distance(second))
+        crossed(simd, rays, distance(first), distance(second))
     }
 }
 
@@ -269,53 +295,41 @@ impl Way {
     }
 }
 
-// Plain loops over arrays of known length, for the sake of vector instructions.
-
 /// Of rays in a cell, the planes ahead of it at these distances along each axis: those whose hit is
 /// no farther than the nearest crossing; those that cross the plane of x first; of the others, but not
 /// of them alone, those that cross that of y first. Of equal crossings that of the lower axis is first.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512dq+avx512vl+avx512bw",
-    "x86_64+avx2",
-    "aarch64+neon"
-))]
-fn next_crossings(rays: &Rays, group: u64, ahead: [f64; 3]) -> [u64; 3] {
-    let (mut there, mut first_x, mut first_y) = ([0; LANES], [0; LANES], [0; LANES]);
-    for chunk in 0..WIDTH / LANES {
-        if group >> (chunk * LANES) & 0xff == 0 {
-            continue;
-        }
-        let [x, y, z] = [0, 1, 2].map(|axis| &rays.inverse[axis][chunk]);
-        let (distance, bit) = (&rays.distance[chunk], &BIT[chunk]);
-        for l in 0..LANES {
-            let (x, y, z) = (ahead[0] * x[l], ahead[1] * y[l], ahead[2] * z[l]);
-            let y_or_z = if y <= z { y } else { z };
-            let nearest = if x <= y_or_z { x } else { y_or_z };
-            there[l] |= if distance[l] <= nearest { bit[l] } else { 0 };
-            first_x[l] |= if x <= y_or_z { bit[l] } else { 0 };
-            first_y[l] |= if y <= z { bit[l] } else { 0 };
+#[inline(always)]
+fn next_crossings<S: Simd>(
+    simd: S,
+    rays: &Rays,
+    nearest: &Nearest,
+    group: u64,
+    ahead: [f64; 3],
+) -> [u64; 3] {
+    let mut found = [0; 3];
+    for chunk in (0..CHUNKS).filter(|&chunk| of_chunk(group, chunk) != 0) {
+        let crossing = |axis: usize| ahead[axis] * rays.inverse[axis][chunk].load(simd);
+        let (x, y, z) = (crossing(0), crossing(1), crossing(2));
+        let y_or_z = y.min(z);
+        let first = x.min(y_or_z);
+        let there = nearest.distance[chunk].load(simd).simd_le(first);
+        for (found, mask) in found.iter_mut().zip([there, x.simd_le(y_or_z), y.simd_le(z)]) {
+            *found |= mask.to_bitmask() << (chunk * LANES);
         }
     }
-    [united(there), united(first_x), united(first_y)]
+    found
 }
 
 /// The rays whose crossing of one plane, given by its axis and its distance along it, comes before
 /// that of another: sorted by distance, then by axis.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512dq+avx512vl+avx512bw",
-    "x86_64+avx2",
-    "aarch64+neon"
-))]
-fn crossed(rays: &Rays, first: (usize, f64), second: (usize, f64)) -> u64 {
-    let (mut less, mut equal) = ([0; LANES], [0; LANES]);
-    for chunk in 0..WIDTH / LANES {
-        let (a, b) = (&rays.inverse[first.0][chunk], &rays.inverse[second.0][chunk]);
-        let bit = &BIT[chunk];
-        for l in 0..LANES {
-            let (a, b) = (first.1 * a[l], second.1 * b[l]);
-            less[l] |= if a < b { bit[l] } else { 0 };
-            equal[l] |= if a == b { bit[l] } else { 0 };
-        }
+#[inline(always)]
+fn crossed<S: Simd>(simd: S, rays: &Rays, first: (usize, f64), second: (usize, f64)) -> u64 {
+    let (mut less, mut equal) = (0, 0);
+    for chunk in 0..CHUNKS {
+        let a = first.1 * rays.inverse[first.0][chunk].load(simd);
+        let b = second.1 * rays.inverse[second.0][chunk].load(simd);
+        less |= a.simd_lt(b).to_bitmask() << (chunk * LANES);
+        equal |= a.simd_eq(b).to_bitmask() << (chunk * LANES);
     }
-    united(less) | if first.0 < second.0 { united(equal) } else { 0 }
+    less | if first.0 < second.0 { equal } else { 0 }
 }
