@@ -1,0 +1,54 @@
+//! Our rates beside those of the programs that others would use for the same.
+
+mod cpu;
+mod peer;
+mod rays;
+mod scenes;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Measures this project beside its peers, on this host, one thread each.
+#[derive(Parser)]
+#[command(name = "peers")]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Cast the same rays with our kernel and with Embree, in turns.
+    Rays {
+        /// Names or OBJ files of scenes; by default rooms of two sizes and the paper's three.
+        scenes: Vec<PathBuf>,
+        /// Rounds, of which the median is told.
+        #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..=1000))]
+        rounds: u16,
+    },
+}
+
+fn main() -> ExitCode {
+    match run(&Arguments::parse().command) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("error: {message}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn run(command: &Command) -> Result<(), String> {
+    match command {
+        Command::Rays { scenes, rounds } => {
+            let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
+            for scene in scenes::scenes(scenes, &folder)? {
+                let rows = rays::measure(&scene.name, &scene.path.to_string_lossy(), *rounds)?;
+                print!("{}", rays::table(&rows));
+            }
+        }
+    }
+    Ok(())
+}
