@@ -1,6 +1,9 @@
 //! Our rates beside those of the programs that others would use for the same.
 
 mod cpu;
+#[path = "../../multicomputer/benches/exchange/mod.rs"]
+mod exchange;
+mod messages;
 mod peer;
 mod rays;
 mod scenes;
@@ -24,10 +27,21 @@ enum Command {
     Rays {
         /// Names or OBJ files of scenes; by default rooms of two sizes and the paper's three.
         scenes: Vec<PathBuf>,
-        /// Rounds, of which the median is told.
-        #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..=1000))]
-        rounds: u16,
+        #[command(flatten)]
+        rounds: Rounds,
     },
+    /// Send the same messages over our networks and over SimGrid's, in turns.
+    Messages {
+        #[command(flatten)]
+        rounds: Rounds,
+    },
+}
+
+#[derive(clap::Args)]
+struct Rounds {
+    /// Rounds, of which the median is told.
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    rounds: u16,
 }
 
 fn main() -> ExitCode {
@@ -44,10 +58,20 @@ fn run(command: &Command) -> Result<(), String> {
     match command {
         Command::Rays { scenes, rounds } => {
             let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
+            let embree = rays::EMBREE.build()?;
             for scene in scenes::scenes(scenes, &folder)? {
-                let rows = rays::measure(&scene.name, &scene.path.to_string_lossy(), *rounds)?;
+                let rows = rays::measure(
+                    &embree,
+                    &scene.name,
+                    &scene.path.to_string_lossy(),
+                    rounds.rounds,
+                )?;
                 print!("{}", rays::table(&rows));
             }
+        }
+        Command::Messages { rounds } => {
+            let rows = messages::measure(&messages::SIMGRID.build()?, rounds.rounds)?;
+            print!("{}", messages::table(&rows));
         }
     }
     Ok(())

@@ -7,9 +7,10 @@ use radiosity::Operation;
 use radiosity::glam::DVec3;
 
 use crate::cpu::{Spread, timed};
-use crate::peer::{Peer, Recipe};
+use crate::peer::{Peer, Program, Recipe};
 
-const EMBREE: Recipe = Recipe {
+/// Embree's harness.
+pub const EMBREE: Recipe = Recipe {
     name: "embree",
     source: include_str!("../cpp/embree.cpp"),
     library: "embree3",
@@ -55,13 +56,13 @@ pub struct Row {
 /// once.
 ///
 /// # Errors
-/// What is wrong with the scene, or what Embree's harness lacks.
-pub fn measure(scene: &str, path: &str, rounds: u16) -> Result<Vec<Row>, String> {
+/// What is wrong with the scene, or with Embree's harness.
+pub fn measure(embree: &Program, scene: &str, path: &str, rounds: u16) -> Result<Vec<Row>, String> {
     let open = OpenScene::load(path).map_err(|fault| fault.to_string())?;
     let bench = RayBench::new(open, SOURCES, RAYS, SEED).map_err(|error| error.to_string())?;
-    let mut embree = Peer::start(&EMBREE)?;
+    let mut embree = Peer::start(embree, &[])?;
     embree.tell(&problem(&bench))?;
-    let version = embree.answer()?.join(" ");
+    let version = embree.line()?;
     // For each tracer the counts, always the same, and the rate of each round.
     let mut counts = vec![(0, 0, 0); 1 + MODES.len()];
     let mut rates = vec![Vec::new(); 1 + MODES.len()];
@@ -131,15 +132,9 @@ fn theirs(
     (_, width, robust): (&str, u32, bool),
 ) -> Result<(Count, f64), String> {
     embree.tell(&format!("{width} {}\n", u32::from(robust)))?;
-    let answer = embree.answer()?;
-    let [seconds, hits, own] = answer.as_slice() else {
-        return Err(format!("embree: found {answer:?}; expected three numbers"));
-    };
-    let read = |_| format!("embree: found {answer:?}; expected three numbers");
+    let (seconds, hits, own_hits) = embree.figures()?;
     let rays = bench.sources.len() as u64 * u64::from(bench.hemisphere.pixels());
-    let hits = hits.parse().map_err(|_| read(()))?;
-    let own = own.parse().map_err(|_| read(()))?;
-    Ok(((rays, hits, own), seconds.parse().map_err(|_| read(()))?))
+    Ok(((rays, hits, own_hits), seconds))
 }
 
 /// Polygons, directions and sources as `embree.cpp` reads them, in the scene's own coordinates,
