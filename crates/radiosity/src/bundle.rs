@@ -103,11 +103,13 @@ impl Rays {
         self.pyramid = bundles.pyramids[bundle].over(self.origin, self.frame);
         let [tangent, bitangent, normal] = self.frame;
         for axis in 0..3 {
-            let [t, b, n] = [tangent, bitangent, normal].map(|v| f64x8::splat(simd, v[axis]));
+            let (t, b, n) = (tangent[axis], bitangent[axis], normal[axis]);
             let (mut up, mut level) = (0, 0);
             for chunk in 0..CHUNKS {
-                let [x, y, z] = bundles.directions[bundle].each_ref().map(|c| c[chunk].load(simd));
-                let turned = t * x + b * y + n * z;
+                let [x, y, z] = &bundles.directions[bundle];
+                let turned = t * x[chunk].load(simd)
+                    + b * y[chunk].load(simd)
+                    + n * z[chunk].load(simd);
                 let tiny = turned.abs().simd_lt(Ray::LEAST);
                 let direction = tiny.select(f64x8::splat(simd, 0.0), turned);
                 direction.store_array(&mut self.direction[axis][chunk].0);

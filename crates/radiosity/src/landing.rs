@@ -51,13 +51,17 @@ fn slots<S: Simd>(
     piece: &Piece,
 ) -> f64x8<S> {
     let distance = nearest.distance[chunk].load(simd);
-    let [x, y, z] = std::array::from_fn(|axis| {
-        rays.origin[axis] + rays.direction[axis][chunk].load(simd) * distance
-    });
-    let slot = |along: DVec3, start: f64, n: u32| {
-        let along = x * along.x + y * along.y + z * along.z - start;
-        along.max(0.0).floor().min(f64::from(n - 1))
-    };
-    let (i, j) = (slot(piece.u, piece.u0, piece.nu), slot(piece.v, piece.v0, piece.nv));
+    let mut point = [distance; 3];
+    for (axis, point) in point.iter_mut().enumerate() {
+        *point = rays.origin[axis] + rays.direction[axis][chunk].load(simd) * distance;
+    }
+    let i = slot(point, piece.u, piece.u0, piece.nu);
+    let j = slot(point, piece.v, piece.v0, piece.nv);
     f64::from(piece.first_slot) + (j * f64::from(piece.nu) + i)
+}
+
+#[inline(always)]
+fn slot<S: Simd>([x, y, z]: [f64x8<S>; 3], along: DVec3, start: f64, n: u32) -> f64x8<S> {
+    let along = x * along.x + y * along.y + z * along.z - start;
+    along.max(0.0).floor().min(f64::from(n - 1))
 }

@@ -114,8 +114,10 @@ impl Nearest {
         let (oi, oj) = (rays.origin[i], rays.origin[j]);
         let mut reach = Reach { nearer: 0, as_near: 0, front: 0 };
         for chunk in 0..CHUNKS {
-            let [x, y, z] = rays.direction.each_ref().map(|column| column[chunk].load(simd));
-            let slope = normal[0] * x + normal[1] * y + normal[2] * z;
+            let [x, y, z] = &rays.direction;
+            let slope = normal[0] * x[chunk].load(simd)
+                + normal[1] * y[chunk].load(simd)
+                + normal[2] * z[chunk].load(simd);
             let t = above * (1.0 / slope);
             let p = oi + rays.direction[i][chunk].load(simd) * t;
             let q = oj + rays.direction[j][chunk].load(simd) * t;

@@ -156,28 +156,23 @@ impl Node {
     #[inline(always)]
     fn meets<S: Simd>(&self, simd: S, pyramid: &Narrow, limit: f32) -> (u64, [f32; WIDE]) {
         let mut square = f32x16::splat(simd, 0.0);
-        let low: [f32x16<S>; 3] = self.relative(simd, &self.low, pyramid);
-        let high: [f32x16<S>; 3] = self.relative(simd, &self.high, pyramid);
+        // How far inside each of the four planes the corner lies that is farthest so.
+        let mut least = [square; 4];
         for axis in 0..3 {
-            let outside = low[axis].max(-high[axis]).max(0.0);
-            square = outside * outside + square;
+            let apex = pyramid.apex[axis];
+            let low = f32x16::load_array_ref(simd, &self.low[axis].0) - apex;
+            let high = f32x16::load_array_ref(simd, &self.high[axis].0) - apex;
+            let outside = low.max(-high).max(0.0);
+            square += outside * outside;
+            for (least, plane) in least.iter_mut().zip(&pyramid.outwards) {
+                *least += plane[axis] * if plane[axis] > 0.0 { low } else { high };
+            }
         }
         let mut met = square.simd_le(limit);
-        for plane in pyramid.outwards {
-            // The corner farthest inside is the same for all boxes.
-            let corner = |axis: usize| if plane[axis] > 0.0 { low[axis] } else { high[axis] };
-            let least = plane[0] * corner(0) + plane[1] * corner(1) + plane[2] * corner(2);
+        for least in least {
             met &= least.simd_le(pyramid.room);
         }
         (met.to_bitmask(), square.to_array())
-    }
-
-    /// Sides of the boxes as seen from the apex.
-    #[inline(always)]
-    fn relative<S: Simd>(&self, simd: S, sides: &[Each; 3], pyramid: &Narrow) -> [f32x16<S>; 3] {
-        std::array::from_fn(|axis| {
-            f32x16::load_array_ref(simd, &sides[axis].0) - pyramid.apex[axis]
-        })
     }
 }
 

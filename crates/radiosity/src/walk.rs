@@ -308,8 +308,9 @@ fn next_crossings<S: Simd>(
 ) -> [u64; 3] {
     let mut found = [0; 3];
     for chunk in (0..CHUNKS).filter(|&chunk| of_chunk(group, chunk) != 0) {
-        let crossing = |axis: usize| ahead[axis] * rays.inverse[axis][chunk].load(simd);
-        let (x, y, z) = (crossing(0), crossing(1), crossing(2));
+        let x = ahead[0] * rays.inverse[0][chunk].load(simd);
+        let y = ahead[1] * rays.inverse[1][chunk].load(simd);
+        let z = ahead[2] * rays.inverse[2][chunk].load(simd);
         let y_or_z = y.min(z);
         let first = x.min(y_or_z);
         let there = nearest.distance[chunk].load(simd).simd_le(first);
