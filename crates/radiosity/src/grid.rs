@@ -79,7 +79,7 @@ pub struct Grid {
     /// Cells in a metre.
     per_metre: [f64; 3],
     /// Where the polygons of each cell start, and those of the last one end.
-    pub(crate) starts: Vec<u32>,
+    starts: Vec<u32>,
     polygons: Vec<u32>,
 }
 
@@ -143,6 +143,12 @@ impl Grid {
     pub fn polygons(&self, cell: [u32; 3]) -> &[u32] {
         let i = self.index(cell);
         &self.polygons[self.starts[i] as usize..self.starts[i + 1] as usize]
+    }
+
+    /// How many polygons a cell, given by its place, meets.
+    #[inline]
+    pub(crate) fn polygons_in(&self, place: u32) -> u64 {
+        u64::from(self.starts[place as usize + 1] - self.starts[place as usize])
     }
 
     #[inline]

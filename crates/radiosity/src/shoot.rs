@@ -9,6 +9,7 @@ use crate::form_factors::FormFactors;
 use crate::grid::Side;
 use crate::hemisphere::Hemisphere;
 use crate::landing::land;
+use crate::lattice::Lattice;
 use crate::mask::Mask;
 use crate::nearest::Nearest;
 use crate::plain::cast_pixel;
@@ -60,7 +61,7 @@ fn shoot_on<S: Simd>(
         rays: Rays::from(source.centre, frame),
         nearest: Nearest::new(),
         waiting: Waiting::default(),
-        walk: Walk::new(&space.grid, environment.block, source.centre),
+        walk: Walk::new(Lattice::new(&space.grid, environment.block, source.centre)),
         tally: Tally::new(environment, mask, form_factors),
     };
     for (bundle, &word) in mask.words().iter().enumerate().filter(|&(_, &word)| word != 0) {

@@ -37,7 +37,7 @@ struct Node {
 
 const ITEM: u32 = 1 << 31;
 
-/// Children to be visited, with the squares of their distances, the next one last.
+/// Children to be visited, the next one last.
 #[derive(Default)]
 pub(crate) struct Waiting(Vec<(f32, u32)>);
 

@@ -3,43 +3,42 @@
 //! a time, without testing a polygon.
 
 use fearless_simd::prelude::*;
-use glam::DVec3;
 
 use crate::bundle::{CHUNKS, LANES, Rays, of_chunk};
-use crate::grid::{Block, Grid, Side};
+use crate::entry::Entry;
+use crate::grid::Side;
+use crate::lattice::Lattice;
 use crate::nearest::Nearest;
+use crate::way::Way;
 
 /// Walks through one block from one source.
 pub(crate) struct Walk<'a> {
-    grid: &'a Grid,
-    block: Block,
-    /// The cell of the source.
-    start: [u32; 3],
-    /// Distance from the source to each plane of the grid, along its axis.
-    planes: [Vec<f64>; 3],
+    lattice: Lattice<'a>,
+    entry: Entry,
     here: Vec<Group>,
     /// Where groups go from here; rays that come to one cell from several go on as one group.
-    ahead: Vec<Group>,
-    /// Room for the columns of cells that rays enter, along either axis of the side they come by.
-    columns: [Vec<Column>; 2],
+    next: Vec<Group>,
 }
 
 /// Rays of a bundle, a bit each, that are in the same cell.
 #[derive(Clone, Copy)]
 struct Group {
-    cell: [u32; 3],
+    cell: u32,
+    /// The plane ahead of them on each axis, by its place among all.
+    ahead: [u32; 3],
     rays: u64,
 }
 
-/// Rays of a bundle that are at the same cell of an axis.
-type Column = (u32, u64);
-
-/// Which way rays go along an axis.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Way {
-    Down,
-    Level,
-    Up,
+/// What becomes of a group on each axis when it crosses the plane ahead, for rays that go the same way
+/// on all.
+struct Course {
+    ways: [Way; 3],
+    /// To the next plane.
+    step: [i32; 3],
+    /// To the next cell.
+    stride: [i32; 3],
+    /// The plane at the end of the block.
+    end: [u32; 3],
 }
 
 /// What came of a walk.
@@ -56,18 +55,8 @@ pub(crate) struct Walked {
 }
 
 impl<'a> Walk<'a> {
-    pub(crate) fn new(grid: &'a Grid, block: Block, origin: DVec3) -> Walk<'a> {
-        let relative =
-            |axis: usize| grid.planes[axis].iter().map(|plane| plane - origin[axis]).collect();
-        Walk {
-            grid,
-            block,
-            start: grid.cell_of(origin),
-            planes: std::array::from_fn(relative),
-            here: Vec::new(),
-            ahead: Vec::new(),
-            columns: [Vec::new(), Vec::new()],
-        }
+    pub(crate) fn new(lattice: Lattice<'a>) -> Walk<'a> {
+        Walk { lattice, entry: Entry::default(), here: Vec::new(), next: Vec::new() }
     }
 
     /// Walk those rays of a bundle that are `cast`, each to its hit or out of the block.
@@ -84,40 +73,55 @@ impl<'a> Walk<'a> {
         let mut rest = cast;
         while rest != 0 {
             // Those that go the same way on every axis go together: mostly all of them.
-            let first = rest & rest.wrapping_neg();
-            let ways = std::array::from_fn(|axis| Way::of(rays, axis, first));
-            let alike = (0..3).fold(rest, |alike, axis| alike & ways[axis].all(rays, axis));
+            let (ways, alike) = Way::of_first(rays, rest);
             rest &= !alike;
-            self.enter(simd, rays, ways, alike, &mut walked);
+            let course = Course::new(&self.lattice, ways);
+            self.enter(simd, rays, &course, alike, &mut walked);
             while !self.here.is_empty() {
                 for group in 0..self.here.len() {
-                    let Group { cell, rays: here } = self.here[group];
-                    let ahead = self.planes_ahead(ways, cell);
-                    let crossings = next_crossings(simd, rays, nearest, here, ahead);
-                    self.step(ways, self.here[group], crossings, found, &mut walked);
+                    let group = self.here[group];
+                    let ahead = group.ahead.map(|plane| self.lattice.planes[plane as usize]);
+                    let crossings = next_crossings(simd, rays, nearest, group.rays, ahead);
+                    self.step(&course, group, crossings, found, &mut walked);
                 }
                 self.here.clear();
-                std::mem::swap(&mut self.here, &mut self.ahead);
+                std::mem::swap(&mut self.here, &mut self.next);
             }
         }
         walked
     }
 
-    /// The planes ahead of rays in a cell.
+    /// Put rays into the cells in which their walk starts.
     #[inline(always)]
-    fn planes_ahead(&self, ways: [Way; 3], cell: [u32; 3]) -> [f64; 3] {
-        std::array::from_fn(|axis| match ways[axis] {
-            Way::Down => self.planes[axis][cell[axis] as usize],
-            Way::Level => f64::INFINITY,
-            Way::Up => self.planes[axis][cell[axis] as usize + 1],
-        })
+    fn enter<S: Simd>(
+        &mut self,
+        simd: S,
+        rays: &Rays,
+        course: &Course,
+        cast: u64,
+        walked: &mut Walked,
+    ) {
+        let Walk { lattice, entry, here, .. } = self;
+        let mut start = |cell: [u32; 3], rays: u64| {
+            let (ahead, cell) = (lattice.ahead(course.ways, cell), lattice.grid.index(cell) as u32);
+            here.push(Group { cell, ahead, rays });
+        };
+        if lattice.block.contains(lattice.start) {
+            start(lattice.start, cast);
+            return;
+        }
+        let never = entry.enter(simd, lattice, rays, course.ways, cast, start);
+        if never != 0 {
+            let side = lattice.block.side_towards(lattice.start, course.ways[0] == Way::Up);
+            walked.left[side.index()] |= never;
+        }
     }
 
     /// Go on from one cell.
     #[inline(always)]
     fn step(
         &mut self,
-        ways: [Way; 3],
+        course: &Course,
         group: Group,
         [there, x, y]: [u64; 3],
         found: u64,
@@ -125,173 +129,50 @@ impl<'a> Walk<'a> {
     ) {
         let count = u64::from(group.rays.count_ones());
         walked.steps += count;
-        walked.tests += count * self.grid.polygons(group.cell).len() as u64;
+        walked.tests += count * self.lattice.grid.polygons_in(group.cell);
         let ended = there & group.rays & found;
         walked.ended |= ended;
         let going = group.rays & !ended;
         for (axis, crossing) in [x, y & !x, !x & !y].into_iter().enumerate() {
             let crossing = Group { rays: going & crossing, ..group };
             if crossing.rays != 0 {
-                self.cross(axis, ways[axis] == Way::Up, crossing, walked);
+                self.cross(course, axis, crossing, walked);
             }
         }
     }
 
-    /// Take rays over a side of their cell, or out of the block.
-    #[inline]
-    fn cross(&mut self, axis: usize, upper: bool, mut group: Group, walked: &mut Walked) {
-        let cell = &mut group.cell[axis];
-        let end = if upper { self.block.high[axis] - 1 } else { self.block.low[axis] };
-        if *cell == end {
-            walked.left[Side { axis, upper }.index()] |= group.rays;
+    /// Take rays over the plane ahead on an axis, to the next cell or out of the block.
+    #[inline(always)]
+    fn cross(&mut self, course: &Course, axis: usize, mut group: Group, walked: &mut Walked) {
+        if group.ahead[axis] == course.end[axis] {
+            let side = Side { axis, upper: course.ways[axis] == Way::Up };
+            walked.left[side.index()] |= group.rays;
             return;
         }
-        *cell = if upper { *cell + 1 } else { *cell - 1 };
-        match self.ahead.iter_mut().find(|other| other.cell == group.cell) {
+        group.ahead[axis] = group.ahead[axis].wrapping_add_signed(course.step[axis]);
+        group.cell = group.cell.wrapping_add_signed(course.stride[axis]);
+        match self.next.iter_mut().find(|other| other.cell == group.cell) {
             Some(other) => other.rays |= group.rays,
-            None => self.ahead.push(group),
+            None => self.next.push(group),
         }
-    }
-
-    /// Put rays into the cells in which they enter the block, as [`Grid::enter`] does.
-    #[inline(always)]
-    fn enter<S: Simd>(&mut self, simd: S, rays: &Rays, ways: [Way; 3], cast: u64, walked: &mut Walked) {
-        if self.block.contains(self.start) {
-            self.here.push(Group { cell: self.start, rays: cast });
-            return;
-        }
-        let mut never = cast;
-        if let Some(sides) = self.sides_ahead(ways) {
-            for axis in 0..3 {
-                let Some(plane) = sides[axis] else { continue };
-                // By this side enter those that cross it last.
-                let mut through = cast;
-                for other in (0..3).filter(|&other| other != axis) {
-                    if let Some(before) = sides[other] {
-                        through &= self.crossed(simd, rays, (other, before), (axis, plane));
-                    }
-                }
-                if through != 0 {
-                    never &= !self.enter_by(simd, rays, ways, (axis, plane), through);
-                }
-            }
-        }
-        if never != 0 {
-            let side = self.block.side_towards(self.start, ways[0] == Way::Up);
-            walked.left[side.index()] |= never;
-        }
-    }
-
-    /// The plane that rays have yet to cross into the block on each axis; `None` if on one of them
-    /// they lead away from it.
-    fn sides_ahead(&self, ways: [Way; 3]) -> Option<[Option<u32>; 3]> {
-        let mut sides = [None; 3];
-        for axis in 0..3 {
-            let (low, high) = (self.block.low[axis], self.block.high[axis]);
-            sides[axis] = match ways[axis] {
-                _ if (low..high).contains(&self.start[axis]) => None,
-                Way::Up if self.start[axis] < low => Some(low),
-                Way::Down if self.start[axis] >= high => Some(high),
-                _ => return None,
-            };
-        }
-        Some(sides)
-    }
-
-    /// Put rays that complete their entry at a plane into their cells behind it; those that were in
-    /// the block's part of it.
-    #[inline(always)]
-    fn enter_by<S: Simd>(&mut self, simd: S, rays: &Rays, ways: [Way; 3], entry: (usize, u32), cast: u64) -> u64 {
-        let (axis, plane) = entry;
-        let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
-        let mut columns = std::mem::take(&mut self.columns);
-        self.columns_along(simd, u, rays, ways[u], entry, cast, &mut columns[0]);
-        self.columns_along(simd, v, rays, ways[v], entry, cast, &mut columns[1]);
-        let mut entered = 0;
-        let mut cell = [0; 3];
-        cell[axis] = if ways[axis] == Way::Up { plane } else { plane - 1 };
-        for &(i, in_column) in &columns[0] {
-            for &(j, in_row) in &columns[1] {
-                (cell[u], cell[v]) = (i, j);
-                let rays = in_column & in_row;
-                if rays != 0 && self.block.contains(cell) {
-                    self.here.push(Group { cell, rays });
-                    entered |= rays;
-                }
-            }
-        }
-        self.columns = columns;
-        entered
-    }
-
-    /// The cells of an axis at which rays are when they cross the plane `entry` of another axis.
-    #[inline(always)]
-    fn columns_along<S: Simd>(
-        &self,
-        simd: S,
-        axis: usize,
-        rays: &Rays,
-        way: Way,
-        entry: (usize, u32),
-        cast: u64,
-        columns: &mut Vec<Column>,
-    ) {
-        columns.clear();
-        let start = self.start[axis];
-        let (low, high) = (self.block.low[axis], self.block.high[axis]);
-        if way == Way::Level {
-            columns.push((start, cast));
-            return;
-        }
-        let up = way == Way::Up;
-        // Those that have come as far as a cell.
-        let come_to = |cell: u32, among: u64| match cell == start {
-            true => among,
-            false => among & self.crossed(simd, rays, (axis, cell + u32::from(!up)), entry),
-        };
-        // From the block's first cell on their way to its last; past the grid's last there is none.
-        let cells = self.grid.cells()[axis];
-        let (mut cell, end, last) =
-            if up { (start.max(low), high - 1, cells - 1) } else { (start.min(high - 1), low, 0) };
-        let mut rest = come_to(cell, cast);
-        loop {
-            let next = if up { cell + 1 } else { cell.saturating_sub(1) };
-            let beyond = if cell == last { 0 } else { come_to(next, rest) };
-            columns.push((cell, rest & !beyond));
-            if cell == end || beyond == 0 {
-                return;
-            }
-            (cell, rest) = (next, beyond);
-        }
-    }
-
-    /// The rays whose crossing of one plane comes before that of another, each an axis and a number.
-    #[inline(always)]
-    fn crossed<S: Simd>(&self, simd: S, rays: &Rays, first: (usize, u32), second: (usize, u32)) -> u64 {
-        let distance = |(axis, plane): (usize, u32)| (axis, self.planes[axis][plane as usize]);
-        crossed(simd, rays, distance(first), distance(second))
     }
 }
 
-impl Way {
-    /// The way of the ray in `bit`.
-    fn of(rays: &Rays, axis: usize, bit: u64) -> Way {
-        if rays.level[axis] & bit != 0 {
-            Way::Level
-        } else if rays.up[axis] & bit != 0 {
-            Way::Up
-        } else {
-            Way::Down
+impl Course {
+    fn new(lattice: &Lattice, ways: [Way; 3]) -> Course {
+        let [nx, ny, _] = lattice.grid.cells().map(|n| n as i32);
+        let mut course = Course { ways, step: [0; 3], stride: [1, nx, nx * ny], end: [0; 3] };
+        for axis in 0..3 {
+            let (step, end) = match ways[axis] {
+                Way::Down => (-1, lattice.block.low[axis]),
+                Way::Level => (0, 0),
+                Way::Up => (1, lattice.block.high[axis]),
+            };
+            course.step[axis] = step;
+            course.stride[axis] *= step;
+            course.end[axis] = lattice.first[axis] + end;
         }
-    }
-
-    /// All rays that go this way.
-    fn all(self, rays: &Rays, axis: usize) -> u64 {
-        match self {
-            Way::Down => !rays.up[axis] & !rays.level[axis],
-            Way::Level => rays.level[axis],
-            Way::Up => rays.up[axis],
-        }
+        course
     }
 }
 
@@ -321,16 +202,3 @@ fn next_crossings<S: Simd>(
     found
 }
 
-/// The rays whose crossing of one plane, given by its axis and its distance along it, comes before
-/// that of another: sorted by distance, then by axis.
-#[inline(always)]
-fn crossed<S: Simd>(simd: S, rays: &Rays, first: (usize, f64), second: (usize, f64)) -> u64 {
-    let (mut less, mut equal) = (0, 0);
-    for chunk in 0..CHUNKS {
-        let a = first.1 * rays.inverse[first.0][chunk].load(simd);
-        let b = second.1 * rays.inverse[second.0][chunk].load(simd);
-        less |= a.simd_lt(b).to_bitmask() << (chunk * LANES);
-        equal |= a.simd_eq(b).to_bitmask() << (chunk * LANES);
-    }
-    less | if first.0 < second.0 { equal } else { 0 }
-}
