@@ -37,6 +37,11 @@ impl Spread {
     }
 }
 
+/// A figure with as many decimals as it is worth writing down.
+pub fn rounded(figure: f64) -> f64 {
+    (figure * 1e3).round() / 1e3
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
