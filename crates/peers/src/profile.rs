@@ -1,7 +1,6 @@
 //! Where the time goes: what perf samples and valgrind counts, function by function.
 
 use std::collections::BTreeMap;
-use std::fmt::Write;
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -14,19 +13,18 @@ use crate::command::{cargo, run};
 use crate::cpu::{rounded, timed};
 
 /// Functions with less of the time than this many per cent are told together.
-const LEAST: f64 = 1.0;
+const LEAST: f64 = 1.5;
 
 /// Sources of the kernel's profile, sampled and counted: a second, and a few under valgrind.
-const SAMPLED: u64 = 1_024;
-const COUNTED: u64 = 32;
-const RAYS: u64 = 30_976;
+const SAMPLED: u32 = 1_024;
+const COUNTED: u32 = 32;
+const RAYS: u32 = 30_976;
+
+/// Samples a second.
+const FREQUENCY: &str = "5000";
 
 /// Packages of Debian with what looks.
 const PACKAGES: &str = "linux-perf valgrind";
-
-/// The commands that are looked at.
-const TABLE1: &[&str] = &["run", "experiments/table1.json", "--threads", "1", "--out"];
-const KERNEL: &[&str] = &["bench", "rays", "rooms", "--rays", "30976", "--sources"];
 
 /// A function and its own part of the time.
 #[derive(Serialize)]
@@ -37,7 +35,7 @@ pub struct Share {
     pub percent: f64,
 }
 
-/// A function of the kernel, by ray.
+/// A function, and what it does for a ray, or in a run.
 #[derive(Serialize)]
 pub struct Part {
     /// As in [`Share`].
@@ -46,40 +44,39 @@ pub struct Part {
     pub percent: f64,
     /// Cycles of the processor.
     pub cycles: f64,
-    /// Instructions, of which valgrind knows no wider vectors than AVX2's.
-    pub instructions: f64,
+    /// Instructions; nothing here or below where valgrind runs another function in its place.
+    pub instructions: Option<f64>,
     /// Loads and stores that miss the first cache.
-    pub cache_misses: f64,
+    pub cache_misses: Option<f64>,
     /// Branches that are guessed wrong.
-    pub wrong_branches: f64,
-    /// The limit that accounts for most of the cycles.
-    pub limit: &'static str,
-    /// The cycles that it accounts for, per cent.
-    pub limit_percent: f64,
+    pub wrong_branches: Option<f64>,
+    /// Per cent of the cycles that the instructions take at the least.
+    pub instructions_percent: Option<f64>,
+    /// Per cent of the cycles that the cache misses take, one after the other.
+    pub cache_misses_percent: Option<f64>,
+    /// Per cent of the cycles that the wrong branches take.
+    pub wrong_branches_percent: Option<f64>,
 }
 
-/// What processors of today can do at best, assumed: instructions a cycle, cycles until a line comes
-/// from the second cache, cycles until work goes on after a wrong branch. Intel's Golden Cove has
-/// 6, 14 and 17.
-const LIMITS: [(&str, f64); 3] =
-    [("instructions", 1.0 / 6.0), ("second cache's latency", 14.0), ("wrong branches", 17.0)];
+/// Cycles that an instruction takes at the least, that a line from the second cache takes, and that go
+/// by until work goes on after a wrong branch: assumed, as Intel states them of its Golden Cove.
+const COSTS: [f64; 3] = [1.0 / 6.0, 14.0, 17.0];
 
 impl Part {
-    fn new(share: Share, cycles: f64, counts: Counts, rays: f64) -> Part {
-        let Counts { instructions, cache_misses, wrong_branches } = counts;
-        let [i, m, w] = [instructions, cache_misses, wrong_branches].map(|n| n as f64 / rays);
-        let costs = [i, m, w].into_iter().zip(LIMITS).map(|(n, (limit, cost))| (limit, n * cost));
-        let (limit, least) =
-            costs.reduce(|a, b| if b.1 > a.1 { b } else { a }).unwrap_or(("", 0.0));
+    fn new(share: Share, cycles: f64, counts: Option<[f64; 3]>) -> Part {
+        let count = |i: usize| counts.map(|counts| rounded(counts[i]));
+        let percent =
+            |i: usize| counts.map(|counts| rounded(100.0 * counts[i] * COSTS[i] / cycles));
         Part {
             function: share.function,
             percent: share.percent,
             cycles: rounded(cycles),
-            instructions: rounded(i),
-            cache_misses: rounded(m),
-            wrong_branches: rounded(w),
-            limit: if least > 0.0 { limit } else { "" },
-            limit_percent: rounded(100.0 * least / cycles),
+            instructions: count(0),
+            cache_misses: count(1),
+            wrong_branches: count(2),
+            instructions_percent: percent(0),
+            cache_misses_percent: percent(1),
+            wrong_branches_percent: percent(2),
         }
     }
 }
@@ -88,7 +85,9 @@ impl Part {
 pub struct Profile {
     /// Functions of Table 1's whole run, the greatest share first.
     pub table1: Vec<Share>,
-    /// Those of the kernel on the rooms.
+    /// Those of its Office part, in millions.
+    pub office: Vec<Part>,
+    /// Those of the kernel on the rooms, a ray.
     pub kernel: Vec<Part>,
     /// Cycles a second of this processor while it is busy, on which cycles are based.
     pub clock: f64,
@@ -101,18 +100,52 @@ pub struct Profile {
 pub fn measure(folder: &TempDir) -> Result<Profile, String> {
     let virtwall = build()?;
     let folder = folder.path();
-    let out = folder.join("table1").display().to_string();
-    let (table1, _) = sample(&virtwall, TABLE1, &out, folder)?;
-    let (shares, seconds) = sample(&virtwall, KERNEL, &SAMPLED.to_string(), folder)?;
-    let counts = count(&virtwall, KERNEL, &COUNTED.to_string(), folder)?;
+    let (whole, _) = sample(&virtwall, &table1(folder, "whole", &[]), folder)?;
+    // Each into a folder of its own: runs found there would not be run again.
+    let office = |run| (table1(folder, run, &["--set", "scene=office"]), 1e6);
+    let rays = |sources| (kernel(sources), f64::from(sources) * f64::from(RAYS));
     let clock = clock();
-    let cycles_a_ray = seconds * clock / (SAMPLED * RAYS) as f64;
+    let parts = |commands| parts(&virtwall, commands, clock, folder);
+    Ok(Profile {
+        table1: whole,
+        office: parts(&["sampled", "counted"].map(office))?,
+        kernel: parts(&[SAMPLED, COUNTED].map(rays))?,
+        clock,
+    })
+}
+
+/// Arguments that make Table 1 in `folder`/`run`.
+fn table1(folder: &Path, run: &str, more: &[&str]) -> Vec<String> {
+    let out = folder.join(run).display().to_string();
+    let arguments = ["run", "experiments/table1.json", "--threads", "1", "--out", &out];
+    arguments.iter().chain(more).map(|&word| word.to_owned()).collect()
+}
+
+/// Arguments that cast the rays of so many sources.
+fn kernel(sources: u32) -> Vec<String> {
+    let (sources, rays) = (sources.to_string(), RAYS.to_string());
+    ["bench", "rays", "rooms", "--sources", &sources, "--rays", &rays].map(str::to_owned).to_vec()
+}
+
+/// Sample one command and count another, which does the same as often or less often; each is given
+/// with the number by which what is found is divided.
+fn parts(
+    virtwall: &Path,
+    [(sampled, per_sampled), (counted, per_counted)]: &[(Vec<String>, f64); 2],
+    clock: f64,
+    folder: &Path,
+) -> Result<Vec<Part>, String> {
+    let (shares, seconds) = sample(virtwall, sampled, folder)?;
+    let counts = count(virtwall, counted, folder)?;
     let part = |share: Share| {
-        let counts = counts.get(&share.function).copied().unwrap_or_default();
-        let cycles = cycles_a_ray * share.percent / 100.0;
-        Part::new(share, cycles, counts, (COUNTED * RAYS) as f64)
+        let counts = counts.get(&share.function).map(|counts| {
+            let Counts { instructions, cache_misses, wrong_branches } = *counts;
+            [instructions, cache_misses, wrong_branches].map(|n| n as f64 / per_counted)
+        });
+        let cycles = seconds * clock * share.percent / 100.0 / per_sampled;
+        Part::new(share, cycles, counts)
     };
-    Ok(Profile { table1, kernel: shares.into_iter().map(part).collect(), clock })
+    Ok(shares.into_iter().map(part).collect())
 }
 
 /// The `virtwall` command, as fast as a user has it.
@@ -125,15 +158,14 @@ fn build() -> Result<PathBuf, String> {
 /// Shares of the time by function, and processor seconds sampled.
 fn sample(
     virtwall: &Path,
-    arguments: &[&str],
-    last: &str,
+    arguments: &[String],
     folder: &Path,
 ) -> Result<(Vec<Share>, f64), String> {
     let data = folder.join("perf.data");
     // The clock is there in virtual machines too, where the processor's counters often are not.
     let mut perf = Command::new("perf");
-    perf.args(["record", "--quiet", "-e", "cpu-clock:u", "-F", "1999", "-o"]).arg(&data);
-    run(perf.arg("--").arg(virtwall).args(arguments).arg(last), PACKAGES)?;
+    perf.args(["record", "--quiet", "-e", "cpu-clock:u", "-F", FREQUENCY, "-o"]).arg(&data);
+    run(perf.arg("--").arg(virtwall).args(arguments), PACKAGES)?;
     let mut perf = Command::new("perf");
     perf.args(["report", "--stdio", "--no-children", "-F", "sample,symbol", "-i"]).arg(&data);
     let report = run(&mut perf, PACKAGES)?;
@@ -158,21 +190,20 @@ fn sample(
     shares.push(("all others".to_owned(), rest));
     let share = |(function, percent)| Share { function, percent: rounded(percent) };
     let shares = shares.into_iter().map(share).collect();
-    Ok((shares, all as f64 / 1999.0))
+    Ok((shares, all as f64 / FREQUENCY.parse::<f64>().unwrap_or(1.0)))
 }
 
 /// Counts by function.
 fn count(
     virtwall: &Path,
-    arguments: &[&str],
-    last: &str,
+    arguments: &[String],
     folder: &Path,
 ) -> Result<BTreeMap<String, Counts>, String> {
     let output = folder.join("callgrind.out");
     let mut valgrind = Command::new("valgrind");
     valgrind.args(["--quiet", "--tool=callgrind", "--cache-sim=yes", "--branch-sim=yes"]);
     valgrind.arg(format!("--callgrind-out-file={}", output.display()));
-    run(valgrind.arg(virtwall).args(arguments).arg(last), PACKAGES)?;
+    run(valgrind.arg(virtwall).args(arguments), PACKAGES)?;
     let text = std::fs::read_to_string(&output).map_err(|error| error.to_string())?;
     let mut counts: BTreeMap<String, Counts> = BTreeMap::new();
     for (function, more) in callgrind::read(&text) {
@@ -208,28 +239,40 @@ fn clock() -> f64 {
     6.0 * STEPS as f64 / seconds
 }
 
-/// Both profiles, for people.
+/// What was found, for people.
 pub fn table(profile: &Profile) -> String {
     let mut text = String::from("\n| Table 1, one thread | % of the time |\n|---|---:|\n");
-    let mut put = |line: String| {
-        writeln!(text, "{line}").expect("writing to a String does not fail");
-    };
     for Share { function, percent } in &profile.table1 {
-        put(format!("| `{function}` | {percent:.1} |"));
+        text += &format!("| `{function}` | {percent:.1} |\n");
     }
-    put(format!(
-        "\n| kernel on the rooms, a ray | % of the time | cycles at {:.2} GHz | instructions | \
-         cache misses | wrong branches | nearest limit | % of cycles |\n\
-         |---|---:|---:|---:|---:|---:|---|---:|",
-        profile.clock / 1e9
-    ));
-    for part in &profile.kernel {
-        let Part { function, percent, cycles, instructions, limit, limit_percent, .. } = part;
-        let (misses, branches) = (part.cache_misses, part.wrong_branches);
-        put(format!(
-            "| `{function}` | {percent:.1} | {cycles:.1} | {instructions:.1} | {misses:.2} | \
-             {branches:.2} | {limit} | {limit_percent:.0} |"
-        ));
+    text += &part_table("Office part, in millions", &profile.office, profile.clock);
+    text += &part_table("kernel on the rooms, a ray", &profile.kernel, profile.clock);
+    text
+}
+
+fn part_table(title: &str, parts: &[Part], clock: f64) -> String {
+    let mut text = format!(
+        "\n| {title} | % of the time | cycles at {:.2} GHz | instructions | % of cycles | \
+         cache misses | % of cycles | wrong branches | % of cycles |\n|---|---:|---:|---:|---:|---:|---:|---:|---:|\n",
+        clock / 1e9
+    );
+    let cell = |figure: Option<f64>, decimals: usize| {
+        figure.map_or("–".to_owned(), |figure| format!("{figure:.decimals$}"))
+    };
+    for part in parts {
+        let Part { function, percent, cycles, .. } = part;
+        text += &format!("| `{function}` | {percent:.1} | {cycles:.1} ");
+        for (figure, decimals) in [
+            (part.instructions, 1),
+            (part.instructions_percent, 0),
+            (part.cache_misses, 2),
+            (part.cache_misses_percent, 0),
+            (part.wrong_branches, 2),
+            (part.wrong_branches_percent, 0),
+        ] {
+            text += &format!("| {} ", cell(figure, decimals));
+        }
+        text += "|\n";
     }
     text
 }

@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
+use serde::Serialize;
+
 use crate::command::{cargo, run};
 use crate::host::Host;
 use crate::{messages, profile, rays, scenes};
-use serde::Serialize;
 
 /// What the README says of how figures came about.
 const HEAD: &str = include_str!("../README-of-results.md");
@@ -42,6 +43,7 @@ pub fn record(out: &Path, rounds: u16) -> Result<(), String> {
         ("rays.csv", csv(&rays)?),
         ("messages.csv", csv(&messages)?),
         ("profile-table1.csv", csv(&profile.table1)?),
+        ("profile-office.csv", csv(&profile.office)?),
         ("profile-kernel.csv", csv(&profile.kernel)?),
         ("cargo-bench.txt", benches),
     ] {
