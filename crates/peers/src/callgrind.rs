@@ -1,6 +1,11 @@
 //! What valgrind counts of a program, function by function.
 
 use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::Command;
+
+use crate::command::run;
+use crate::function::plain_name;
 
 /// Counts of a function's own, without what it calls.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -13,8 +18,26 @@ pub struct Counts {
     pub wrong_branches: u64,
 }
 
+/// Counts by function.
+///
+/// # Errors
+/// When valgrind or the program does not run.
+pub fn count(
+    virtwall: &Path,
+    arguments: &[String],
+    folder: &Path,
+) -> Result<BTreeMap<String, Counts>, String> {
+    let output = folder.join("callgrind.out");
+    let mut valgrind = Command::new("valgrind");
+    valgrind.args(["--quiet", "--tool=callgrind", "--cache-sim=yes", "--branch-sim=yes"]);
+    valgrind.arg(format!("--callgrind-out-file={}", output.display()));
+    run(valgrind.arg(virtwall).args(arguments), "valgrind")?;
+    let text = std::fs::read_to_string(&output).map_err(|error| error.to_string())?;
+    Ok(read(&text))
+}
+
 /// Reads callgrind's output: counts by name of function.
-pub fn read(text: &str) -> BTreeMap<String, Counts> {
+fn read(text: &str) -> BTreeMap<String, Counts> {
     let mut names: BTreeMap<&str, &str> = BTreeMap::new();
     let mut counts: BTreeMap<String, Counts> = BTreeMap::new();
     let mut events: Vec<&str> = Vec::new();
@@ -31,7 +54,7 @@ pub fn read(text: &str) -> BTreeMap<String, Counts> {
         } else if line.starts_with(|c: char| c.is_ascii_digit() || "+-*".contains(c)) {
             // The line after a call holds what the called function took.
             if !std::mem::take(&mut called) {
-                add(counts.entry(function.to_owned()).or_default(), &events, line);
+                add(counts.entry(plain_name(function)).or_default(), &events, line);
             }
         }
     }

@@ -5,9 +5,11 @@ mod command;
 mod cpu;
 #[path = "../../multicomputer/benches/exchange/mod.rs"]
 mod exchange;
+mod function;
 mod host;
 mod messages;
 mod peer;
+mod perf;
 mod profile;
 mod rays;
 mod record;

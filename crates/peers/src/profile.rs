@@ -1,39 +1,19 @@
 //! Where the time goes: what perf samples and valgrind counts, function by function.
 
-use std::collections::BTreeMap;
-use std::hint::black_box;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use serde::Serialize;
 use tempfile::TempDir;
 
-use crate::callgrind::{self, Counts};
+use crate::callgrind::{Counts, count};
 use crate::command::{cargo, run};
-use crate::cpu::{rounded, timed};
-
-/// Functions with less of the time than this many per cent are told together.
-const LEAST: f64 = 1.5;
+use crate::cpu::{clock, rounded};
+use crate::perf::{Share, sample};
 
 /// Sources of the kernel's profile, sampled and counted: a second, and a few under valgrind.
 const SAMPLED: u32 = 1_024;
 const COUNTED: u32 = 32;
 const RAYS: u32 = 30_976;
-
-/// Samples a second.
-const FREQUENCY: &str = "5000";
-
-/// Packages of Debian with what looks.
-const PACKAGES: &str = "linux-perf valgrind";
-
-/// A function and its own part of the time.
-#[derive(Serialize)]
-pub struct Share {
-    /// The function, whatever processor it is compiled for.
-    pub function: String,
-    /// Per cent of the samples.
-    pub percent: f64,
-}
 
 /// A function, and what it does for a ray, or in a run.
 #[derive(Serialize)]
@@ -150,93 +130,9 @@ fn parts(
 
 /// The `virtwall` command, as fast as a user has it.
 fn build() -> Result<PathBuf, String> {
-    run(cargo().args(["build", "--release", "--package", "cli"]), PACKAGES)?;
+    run(cargo().args(["build", "--release", "--package", "cli"]), "cargo")?;
     let own = std::env::current_exe().map_err(|error| error.to_string())?;
     Ok(own.with_file_name("virtwall"))
-}
-
-/// Shares of the time by function, and processor seconds sampled.
-fn sample(
-    virtwall: &Path,
-    arguments: &[String],
-    folder: &Path,
-) -> Result<(Vec<Share>, f64), String> {
-    let data = folder.join("perf.data");
-    // The clock is there in virtual machines too, where the processor's counters often are not.
-    let mut perf = Command::new("perf");
-    perf.args(["record", "--quiet", "-e", "cpu-clock:u", "-F", FREQUENCY, "-o"]).arg(&data);
-    run(perf.arg("--").arg(virtwall).args(arguments), PACKAGES)?;
-    let mut perf = Command::new("perf");
-    perf.args(["report", "--stdio", "--no-children", "-F", "sample,symbol", "-i"]).arg(&data);
-    let report = run(&mut perf, PACKAGES)?;
-    let mut samples: BTreeMap<String, u64> = BTreeMap::new();
-    for line in report.lines() {
-        let Some((count, function)) = line.trim().split_once("[.]") else { continue };
-        if let Ok(count) = count.trim().parse::<u64>() {
-            *samples.entry(plain_name(function.trim())).or_default() += count;
-        }
-    }
-    let all: u64 = samples.values().sum();
-    if all == 0 {
-        return Err("perf: found no sample".to_owned());
-    }
-    let mut shares: Vec<(String, f64)> = samples
-        .into_iter()
-        .map(|(function, count)| (function, 100.0 * count as f64 / all as f64))
-        .collect();
-    shares.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let small = shares.iter().position(|(_, share)| *share < LEAST).unwrap_or(shares.len());
-    let rest = shares.drain(small..).map(|(_, share)| share).sum();
-    shares.push(("all others".to_owned(), rest));
-    let share = |(function, percent)| Share { function, percent: rounded(percent) };
-    let shares = shares.into_iter().map(share).collect();
-    Ok((shares, all as f64 / FREQUENCY.parse::<f64>().unwrap_or(1.0)))
-}
-
-/// Counts by function.
-fn count(
-    virtwall: &Path,
-    arguments: &[String],
-    folder: &Path,
-) -> Result<BTreeMap<String, Counts>, String> {
-    let output = folder.join("callgrind.out");
-    let mut valgrind = Command::new("valgrind");
-    valgrind.args(["--quiet", "--tool=callgrind", "--cache-sim=yes", "--branch-sim=yes"]);
-    valgrind.arg(format!("--callgrind-out-file={}", output.display()));
-    run(valgrind.arg(virtwall).args(arguments), PACKAGES)?;
-    let text = std::fs::read_to_string(&output).map_err(|error| error.to_string())?;
-    let mut counts: BTreeMap<String, Counts> = BTreeMap::new();
-    for (function, more) in callgrind::read(&text) {
-        let sum = counts.entry(plain_name(&function)).or_default();
-        sum.instructions += more.instructions;
-        sum.cache_misses += more.cache_misses;
-        sum.wrong_branches += more.wrong_branches;
-    }
-    Ok(counts)
-}
-
-/// `a::b::run::run_avx2_fma_version` is `a::b::run`: valgrind knows fewer instructions than the host.
-fn plain_name(function: &str) -> String {
-    let name = match function.rsplit_once("::") {
-        Some((name, last)) if last.ends_with("_version") => name,
-        _ => function,
-    };
-    name.replace("_avx512_", "_").replace("_avx_", "_")
-}
-
-/// Cycles a second: of a chain of shifts and exclusive ors, each of which takes one and waits for the
-/// last (Marsaglia's xorshift64).
-fn clock() -> f64 {
-    const STEPS: u64 = 100_000_000;
-    let (_, seconds) = timed(|| {
-        let step = |mut x: u64, _| {
-            x ^= x << 13;
-            x ^= x >> 7;
-            x ^ x << 17
-        };
-        black_box((0..STEPS).fold(black_box(1996), step))
-    });
-    6.0 * STEPS as f64 / seconds
 }
 
 /// What was found, for people.
@@ -275,18 +171,4 @@ fn part_table(title: &str, parts: &[Part], clock: f64) -> String {
         text += "|\n";
     }
     text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::plain_name;
-
-    #[test]
-    fn versions_of_a_function_have_its_name() {
-        for name in ["a::walk::run::run_avx2_fma_version", "a::walk::run"] {
-            assert_eq!(plain_name(name), "a::walk::run");
-        }
-        assert_eq!(plain_name("__memmove_avx512_unaligned_erms"), "__memmove_unaligned_erms");
-        assert_eq!(plain_name("__memmove_avx_unaligned_erms"), "__memmove_unaligned_erms");
-    }
 }
