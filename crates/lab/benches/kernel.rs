@@ -28,16 +28,50 @@ fn open(scene: &str) -> OpenScene {
     OpenScene::load(&path).expect("the committed scene is right")
 }
 
+/// How the rays of a source are cast.
+type Cast = fn(&Space, &LocalEnvironment, &Hemisphere, &Source, &Mask) -> Shot;
+
 /// Each scene as one environment, from random points of random polygons.
-#[divan::bench(args = SCENES.map(|(name, _)| name), consts = [false, true], sample_count = 10)]
-fn whole_scene<const PLAIN: bool>(bencher: Bencher, scene: &str) {
-    let bench = RayBench::new(open(scene), SOURCES, RAYS, 1996).expect("so many rays are possible");
-    bencher.counter(ItemsCount::new(SOURCES * RAYS)).bench(|| bench.cast(PLAIN));
+mod whole_scene {
+    use super::*;
+
+    #[divan::bench(args = names(), sample_count = 10)]
+    fn bundles(bencher: Bencher, scene: &str) {
+        cast(bencher, scene, false);
+    }
+
+    #[divan::bench(args = names(), sample_count = 10)]
+    fn plainly(bencher: Bencher, scene: &str) {
+        cast(bencher, scene, true);
+    }
+
+    fn cast(bencher: Bencher, scene: &str, plain: bool) {
+        let bench =
+            RayBench::new(open(scene), SOURCES, RAYS, 1996).expect("so many rays are possible");
+        bencher.counter(ItemsCount::new(SOURCES * RAYS)).bench(|| bench.cast(plain));
+    }
 }
 
 /// Each scene cut into 56 local environments, from a patch of each environment that has one.
-#[divan::bench(args = SCENES.map(|(name, _)| name), consts = [false, true], sample_count = 10)]
-fn local_environments<const PLAIN: bool>(bencher: Bencher, scene: &str) {
+mod local_environments {
+    use super::*;
+
+    #[divan::bench(args = names(), sample_count = 10)]
+    fn bundles(bencher: Bencher, scene: &str) {
+        cast_each(bencher, scene, shoot);
+    }
+
+    #[divan::bench(args = names(), sample_count = 10)]
+    fn plainly(bencher: Bencher, scene: &str) {
+        cast_each(bencher, scene, shoot_plainly);
+    }
+}
+
+fn names() -> impl Iterator<Item = &'static str> {
+    SCENES.into_iter().map(|(name, _)| name)
+}
+
+fn cast_each(bencher: Bencher, scene: &str, cast: Cast) {
     let cut = SCENES.into_iter().find(|(name, _)| *name == scene).expect("it is one of them").1;
     let open = open(scene);
     let size = PatchSize { reflector: open.patch_size, emitter: open.emitter_patch_size };
@@ -50,7 +84,6 @@ fn local_environments<const PLAIN: bool>(bencher: Bencher, scene: &str) {
     let hemisphere =
         Hemisphere::new(HemisphereKind::Fibonacci, RAYS, true).expect("so many rays are possible");
     let mask = Mask::all(RAYS);
-    let cast = if PLAIN { shoot_plainly } else { shoot };
     let shots = || -> Vec<Shot> {
         let shots = sources.iter();
         shots.map(|(environment, s)| cast(&space, environment, &hemisphere, s, &mask)).collect()

@@ -1,5 +1,7 @@
 //! Processor time, and figures measured with it.
 
+use std::hint::black_box;
+
 use rustix::time::{ClockId, clock_gettime};
 
 /// Seconds for which this thread has had a processor: less disturbed by what else the host does than
@@ -14,6 +16,21 @@ pub fn timed<T>(action: impl FnOnce() -> T) -> (T, f64) {
     let start = seconds();
     let result = action();
     (result, seconds() - start)
+}
+
+/// Cycles a second: of a chain of shifts and exclusive ors, each of which takes one and waits for the
+/// last (Marsaglia's xorshift64).
+pub fn clock() -> f64 {
+    const STEPS: u64 = 100_000_000;
+    let (_, seconds) = timed(|| {
+        let step = |mut x: u64, _| {
+            x ^= x << 13;
+            x ^= x >> 7;
+            x ^ x << 17
+        };
+        black_box((0..STEPS).fold(black_box(1996), step))
+    });
+    6.0 * STEPS as f64 / seconds
 }
 
 /// Least, median and greatest of figures measured again and again.
@@ -35,6 +52,11 @@ impl Spread {
         let median = f64::midpoint(figures[(n - 1) / 2], figures[n / 2]);
         Spread { least: figures[0], median, greatest: figures[n - 1] }
     }
+}
+
+/// A figure with as many decimals as it is worth writing down.
+pub fn rounded(figure: f64) -> f64 {
+    (figure * 1e3).round() / 1e3
 }
 
 #[cfg(test)]

@@ -1,11 +1,18 @@
 //! Our rates beside those of the programs that others would use for the same.
 
+mod callgrind;
+mod command;
 mod cpu;
 #[path = "../../multicomputer/benches/exchange/mod.rs"]
 mod exchange;
+mod function;
+mod host;
 mod messages;
 mod peer;
+mod perf;
+mod profile;
 mod rays;
+mod record;
 mod scenes;
 
 use std::path::PathBuf;
@@ -35,6 +42,16 @@ enum Command {
         #[command(flatten)]
         rounds: Rounds,
     },
+    /// Sample and count where the time goes, in Table 1 and in the kernel.
+    Profile,
+    /// Do all of this, and `cargo bench`, and write it down.
+    Record {
+        /// Folder for the figures.
+        #[arg(long, value_name = "DIR", default_value = "results/benchmarks")]
+        out: PathBuf,
+        #[command(flatten)]
+        rounds: Rounds,
+    },
 }
 
 #[derive(clap::Args)]
@@ -60,18 +77,18 @@ fn run(command: &Command) -> Result<(), String> {
             let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
             let embree = rays::EMBREE.build()?;
             for scene in scenes::scenes(scenes, &folder)? {
-                let rows = rays::measure(
-                    &embree,
-                    &scene.name,
-                    &scene.path.to_string_lossy(),
-                    rounds.rounds,
-                )?;
+                let rows = rays::measure(&embree, &scene, rounds.rounds)?;
                 print!("{}", rays::table(&rows));
             }
         }
         Command::Messages { rounds } => {
             let rows = messages::measure(&messages::SIMGRID.build()?, rounds.rounds)?;
             print!("{}", messages::table(&rows));
+        }
+        Command::Record { out, rounds } => record::record(out, rounds.rounds)?,
+        Command::Profile => {
+            let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
+            print!("{}", profile::table(&profile::measure(&folder)?));
         }
     }
     Ok(())

@@ -3,8 +3,9 @@
 use std::fmt::Write;
 
 use multicomputer::NetworkModel;
+use serde::Serialize;
 
-use crate::cpu::{Spread, timed};
+use crate::cpu::{Spread, rounded, timed};
 use crate::exchange::{BYTES, COLUMNS, ROWS, exchange, neighbours, paragon, rungs};
 use crate::peer::{Peer, Program, Recipe};
 
@@ -23,6 +24,7 @@ const ROUNDS: u64 = 1_000;
 const MODELS: [&str; 2] = ["LV08", "CM02"];
 
 /// What one network does with the exchange.
+#[derive(Serialize)]
 pub struct Row {
     /// Whose network, and which.
     pub network: String,
@@ -30,10 +32,14 @@ pub struct Row {
     pub messages: u64,
     /// Virtual seconds that it takes.
     pub virtual_seconds: f64,
-    /// Messages a second of a processor.
-    pub rate: Spread,
-    /// The rate over that of SimGrid's default model.
-    pub ratio: f64,
+    /// Messages a second of one thread: the median of the rounds.
+    pub messages_per_second: f64,
+    /// The least.
+    pub least: f64,
+    /// The greatest.
+    pub greatest: f64,
+    /// The median over that of SimGrid's default model.
+    pub this_over_simgrid: f64,
 }
 
 /// Messages, virtual seconds; processor seconds.
@@ -67,7 +73,15 @@ pub fn measure(simgrid: &Program, rounds: u16) -> Result<Vec<Row>, String> {
     let default = rate(&measured[rungs.len()]).median;
     let rows = names.zip(&measured).map(|(network, measured)| {
         let ((messages, virtual_seconds, _), rate) = (measured[0], rate(measured));
-        Row { network, messages, virtual_seconds, rate, ratio: rate.median / default }
+        Row {
+            network,
+            messages,
+            virtual_seconds,
+            messages_per_second: rate.median.round(),
+            least: rate.least.round(),
+            greatest: rate.greatest.round(),
+            this_over_simgrid: rounded(rate.median / default),
+        }
     });
     Ok(rows.collect())
 }
@@ -111,9 +125,12 @@ pub fn table(rows: &[Row]) -> String {
          |---|---:|---:|---:|---:|---:|\n",
         COLUMNS * ROWS
     );
-    for Row { network, messages, virtual_seconds, rate, ratio } in rows {
-        let Spread { least, median, greatest } = rate;
-        writeln!(text, "| {network} | {median:.0} | {least:.0}–{greatest:.0} | {messages} | {virtual_seconds:.4} | {ratio:.2} |")
+    for row in rows {
+        let Row {
+            network, messages, virtual_seconds, messages_per_second, least, greatest, ..
+        } = row;
+        let ratio = row.this_over_simgrid;
+        writeln!(text, "| {network} | {messages_per_second} | {least}–{greatest} | {messages} | {virtual_seconds:.4} | {ratio:.2} |")
             .expect("writing to a String does not fail");
     }
     text

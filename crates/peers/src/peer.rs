@@ -128,3 +128,22 @@ impl Drop for Peer {
         let _ = self.child.wait();
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// With a compiler or without one.
+    #[test]
+    fn what_is_missing_is_named_with_its_package() {
+        let recipe = Recipe {
+            name: "nothing",
+            source: "#error \"Nothing is not installed\"",
+            library: "nothing",
+            packages: "g++ libnothing-dev",
+        };
+        let message = recipe.build().err().unwrap();
+        assert!(message.starts_with("nothing: "), "{message}");
+        assert!(message.ends_with("apt install g++ libnothing-dev"), "{message}");
+    }
+}

@@ -5,9 +5,11 @@ use std::fmt::Write;
 use lab::{OpenScene, RayBench};
 use radiosity::Operation;
 use radiosity::glam::DVec3;
+use serde::Serialize;
 
-use crate::cpu::{Spread, timed};
+use crate::cpu::{Spread, rounded, timed};
 use crate::peer::{Peer, Program, Recipe};
+use crate::scenes::Bench;
 
 /// Embree's harness.
 pub const EMBREE: Recipe = Recipe {
@@ -33,6 +35,7 @@ const MODES: [(&str, u32, bool); 6] = [
 ];
 
 /// What one tracer does with a scene.
+#[derive(Serialize)]
 pub struct Row {
     /// The scene.
     pub scene: String,
@@ -46,10 +49,14 @@ pub struct Row {
     pub hits: u64,
     /// Hits on the polygon on which the ray starts.
     pub own_hits: u64,
-    /// Million rays a second of one thread.
-    pub rate: Spread,
-    /// Our median rate over this one's.
-    pub ratio: f64,
+    /// Million rays a second of one thread: the median of the rounds.
+    pub mrays_per_second: f64,
+    /// The least.
+    pub least: f64,
+    /// The greatest.
+    pub greatest: f64,
+    /// Our median over this one's.
+    pub ours_over_this: f64,
 }
 
 /// Measure a scene: after a round that does not count, `rounds` in which each tracer casts everything
@@ -57,8 +64,8 @@ pub struct Row {
 ///
 /// # Errors
 /// What is wrong with the scene, or with Embree's harness.
-pub fn measure(embree: &Program, scene: &str, path: &str, rounds: u16) -> Result<Vec<Row>, String> {
-    let open = OpenScene::load(path).map_err(|fault| fault.to_string())?;
+pub fn measure(embree: &Program, scene: &Bench, rounds: u16) -> Result<Vec<Row>, String> {
+    let open = OpenScene::load(&scene.path.to_string_lossy()).map_err(|fault| fault.to_string())?;
     let bench = RayBench::new(open, SOURCES, RAYS, SEED).map_err(|error| error.to_string())?;
     let mut embree = Peer::start(embree, &[])?;
     embree.tell(&problem(&bench))?;
@@ -83,14 +90,16 @@ pub fn measure(embree: &Program, scene: &str, path: &str, rounds: u16) -> Result
     let spreads: Vec<Spread> = rates.into_iter().map(Spread::of).collect();
     let rows =
         names.zip(counts).zip(&spreads).map(|((tracer, (rays, hits, own_hits)), &rate)| Row {
-            scene: scene.to_owned(),
+            scene: scene.name.clone(),
             polygons: bench.space.scene.polygons.len(),
             tracer,
             rays,
             hits,
             own_hits,
-            rate,
-            ratio: spreads[0].median / rate.median,
+            mrays_per_second: rounded(rate.median),
+            least: rounded(rate.least),
+            greatest: rounded(rate.greatest),
+            ours_over_this: rounded(spreads[0].median / rate.median),
         });
     Ok(rows.collect())
 }
@@ -105,13 +114,13 @@ pub fn table(rows: &[Row]) -> String {
             &"| tracer | Mrays/s | least–greatest | hits | of these on the source's own polygon | misses | ours/this |\n|---|---:|---:|---:|---:|---:|---:|",
         );
     }
-    for Row { tracer, rays, hits, own_hits, rate, ratio, .. } in rows {
-        let Spread { least, median, greatest } = rate;
-        let misses = rays - hits;
+    for row in rows {
+        let Row { tracer, rays, hits, own_hits, mrays_per_second, least, greatest, .. } = row;
+        let (misses, ratio) = (rays - hits, row.ours_over_this);
         put(
             &mut text,
             &format_args!(
-                "| {tracer} | {median:.1} | {least:.1}–{greatest:.1} | {hits} | {own_hits} | {misses} | {ratio:.2} |"
+                "| {tracer} | {mrays_per_second:.1} | {least:.1}–{greatest:.1} | {hits} | {own_hits} | {misses} | {ratio:.2} |"
             ),
         );
     }
