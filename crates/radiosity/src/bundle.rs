@@ -4,8 +4,8 @@
 //! only done on eight rays at a time, by the best vector instructions that the host has. What is true
 //! of some rays of a bundle and not of others is a word, a bit a ray.
 
-use fearless_simd::prelude::*;
 use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
 use glam::DVec3;
 
 use crate::facets::Ray;
@@ -56,9 +56,7 @@ impl Bundles {
         let fill = |bundle: &[DVec3]| {
             let at = |lane: usize| bundle[lane.min(bundle.len() - 1)];
             let column = |axis: usize| -> Column {
-                std::array::from_fn(|c| {
-                    Lanes(std::array::from_fn(|l| at(c * LANES + l)[axis]))
-                })
+                std::array::from_fn(|c| Lanes(std::array::from_fn(|l| at(c * LANES + l)[axis])))
             };
             [column(0), column(1), column(2)]
         };
@@ -107,9 +105,8 @@ impl Rays {
             let (mut up, mut level) = (0, 0);
             for chunk in 0..CHUNKS {
                 let [x, y, z] = &bundles.directions[bundle];
-                let turned = t * x[chunk].load(simd)
-                    + b * y[chunk].load(simd)
-                    + n * z[chunk].load(simd);
+                let turned =
+                    t * x[chunk].load(simd) + b * y[chunk].load(simd) + n * z[chunk].load(simd);
                 let tiny = turned.abs().simd_lt(Ray::LEAST);
                 let direction = tiny.select(f64x8::splat(simd, 0.0), turned);
                 direction.store_array(&mut self.direction[axis][chunk].0);

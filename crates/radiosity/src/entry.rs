@@ -6,29 +6,30 @@ use crate::bundle::Rays;
 use crate::lattice::Lattice;
 use crate::way::Way;
 
-/// Room to work in.
+/// How rays enter a block.
 #[derive(Default)]
 pub(crate) struct Entry {
+    /// Cells of the block in which rays enter it, and which do.
+    pub(crate) cells: Vec<([u32; 3], u64)>,
     /// Rays, a bit each, by the cell of an axis at which they enter, for either axis of the side that
     /// they enter by.
     columns: [Vec<(u32, u64)>; 2],
 }
 
 impl Entry {
-    /// Tell in which cells rays that all go the same `ways` from outside a block enter it, some rays at
-    /// a time. Returns those that never do.
+    /// Find the cells in which rays that all go the same `ways` enter a block from outside. Returns
+    /// those that never do.
     #[inline(always)]
-    pub(crate) fn enter<S: Simd>(
+    pub(crate) fn find<S: Simd>(
         &mut self,
         simd: S,
         lattice: &Lattice,
         rays: &Rays,
         ways: [Way; 3],
         cast: u64,
-        mut told: impl FnMut([u32; 3], u64),
     ) -> u64 {
+        self.cells.clear();
         let Some(sides) = sides_ahead(lattice, ways) else { return cast };
-        let mut never = cast;
         for axis in 0..3 {
             let Some(plane) = sides[axis] else { continue };
             // By this side enter those that cross it last.
@@ -39,14 +40,13 @@ impl Entry {
                 }
             }
             if through != 0 {
-                let side = (axis, plane);
-                never &= !self.enter_by(simd, lattice, rays, ways, side, through, &mut told);
+                self.enter_by(simd, lattice, rays, ways, (axis, plane), through);
             }
         }
-        never
+        self.cells.iter().fold(cast, |never, (_, rays)| never & !rays)
     }
 
-    /// Rays that complete their entry at a plane; those that were in the block's part of it.
+    /// Find the cells of rays that complete their entry at a plane.
     #[inline(always)]
     fn enter_by<S: Simd>(
         &mut self,
@@ -56,8 +56,7 @@ impl Entry {
         ways: [Way; 3],
         side: (usize, u32),
         cast: u64,
-        told: &mut impl FnMut([u32; 3], u64),
-    ) -> u64 {
+    ) {
         let (axis, plane) = side;
         let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
         let [columns, rows] = &mut self.columns;
@@ -66,7 +65,6 @@ impl Entry {
             let crossed = |plane: u32| lattice.crossed(simd, rays, (axis, plane), side);
             part(lattice, axis, ways[axis], cast, crossed, cells);
         }
-        let mut entered = 0;
         let mut cell = [0; 3];
         cell[axis] = if ways[axis] == Way::Up { plane } else { plane - 1 };
         for &(i, in_column) in columns.iter() {
@@ -74,12 +72,10 @@ impl Entry {
                 (cell[u], cell[v]) = (i, j);
                 let rays = in_column & in_row;
                 if rays != 0 && lattice.block.contains(cell) {
-                    told(cell, rays);
-                    entered |= rays;
+                    self.cells.push((cell, rays));
                 }
             }
         }
-        entered
     }
 }
 

@@ -1,7 +1,7 @@
 //! The nearest polygon that each ray of a bundle meets.
 
-use fearless_simd::{f64x8, mask64x8};
 use fearless_simd::prelude::*;
+use fearless_simd::{f64x8, mask64x8};
 
 use crate::bundle::{CHUNKS, Column, LANES, Lanes, Rays, of_chunk};
 use crate::facets::{Facet, Facets};
@@ -69,7 +69,9 @@ impl Nearest {
     ) {
         let facet = facets.facet(polygon);
         let reach = match (facet.axis, facet.rectangle) {
-            (Some(axis), Some(sides)) => self.meet_rectangle(simd, rays, facets, facet, axis, sides),
+            (Some(axis), Some(sides)) => {
+                self.meet_rectangle(simd, rays, facets, facet, axis, sides)
+            }
             _ => self.meet_any(simd, rays, facets, facet),
         };
         if reach.nearer | reach.as_near != 0 {
@@ -99,7 +101,9 @@ impl Nearest {
             let p = oi + rays.direction[i][chunk].load(simd) * t;
             let q = oj + rays.direction[j][chunk].load(simd) * t;
             let margin = (p - p0).min(p1 - p).min((q - q0).min(q1 - q));
-            self.keep(simd, facets, chunk, t, margin, &mut nearer, &mut as_near);
+            let kept = self.keep(simd, facets.tolerance, chunk, t, margin);
+            nearer |= kept.0 << (chunk * LANES);
+            as_near |= kept.1 << (chunk * LANES);
         }
         let down = !rays.up[axis] & !rays.level[axis];
         Reach { nearer, as_near, front: if sign > 0.0 { down } else { rays.up[axis] } }
@@ -125,35 +129,36 @@ impl Nearest {
             for edge in facets.edges(facet) {
                 margin = margin.min(edge.a * p + edge.b * q + edge.c);
             }
-            self.keep(simd, facets, chunk, t, margin, &mut reach.nearer, &mut reach.as_near);
+            let kept = self.keep(simd, facets.tolerance, chunk, t, margin);
+            reach.nearer |= kept.0 << (chunk * LANES);
+            reach.as_near |= kept.1 << (chunk * LANES);
             reach.front |= slope.simd_lt(0.0).to_bitmask() << (chunk * LANES);
         }
         reach
     }
 
     /// Keep the distances `t` of a chunk's rays where they are ahead, inside by a `margin` that is not
-    /// below the tolerance, and nearer than those kept so far.
+    /// below the tolerance, and nearer than those kept so far: which those are, a bit each, and which
+    /// are as near.
     #[inline(always)]
     fn keep<S: Simd>(
         &mut self,
         simd: S,
-        facets: &Facets,
+        tolerance: f64,
         chunk: usize,
         t: f64x8<S>,
         margin: f64x8<S>,
-        nearer: &mut u64,
-        as_near: &mut u64,
-    ) {
+    ) -> (u64, u64) {
         let Lanes(kept) = &mut self.distance[chunk];
         let distance = f64x8::load_array_ref(simd, kept);
-        let ahead = t.simd_gt(facets.tolerance) & margin.simd_ge(-facets.tolerance);
+        let ahead = t.simd_gt(tolerance) & margin.simd_ge(-tolerance);
         let reached = ahead & t.simd_le(distance);
-        if reached.any_true() {
-            let less = ahead & t.simd_lt(distance);
-            less.select(t, distance).store_array(kept);
-            *nearer |= less.to_bitmask() << (chunk * LANES);
-            *as_near |= (reached & !less).to_bitmask() << (chunk * LANES);
+        if reached.all_false() {
+            return (0, 0);
         }
+        let nearer = ahead & t.simd_lt(distance);
+        nearer.select(t, distance).store_array(kept);
+        (nearer.to_bitmask(), (reached & !nearer).to_bitmask())
     }
 
     /// Make a polygon the nearest of the rays that reach it first.

@@ -128,11 +128,101 @@ impl Volley<'_> {
         tally.work.count(Operation::Ray, u64::from(word.count_ones()));
         tally.work.count(Operation::CellStep, walked.steps);
         tally.work.count(Operation::PolygonTest, walked.tests);
-        for (side, &left) in Side::ALL.into_iter().zip(&walked.left).filter(|&(_, &rays)| rays != 0) {
+        for (side, &left) in Side::ALL.into_iter().zip(&walked.left).filter(|&(_, &rays)| rays != 0)
+        {
             tally.leave(side, bundle, left);
         }
         land(simd, rays, nearest, environment, walked.ended, |patch, rays| {
             tally.hit(patch, bundle, rays);
         });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::environment::{Patch, PatchSize};
+    use crate::hemisphere::HemisphereKind;
+    use crate::plain::shoot_plainly;
+    use crate::scene::{Face, Material, Rgb, Scene};
+    use glam::DVec3;
+
+    /// A box seen from inside, with a slanted triangle and a plate in it.
+    fn space() -> Space {
+        let corner = |i: usize| DVec3::new((i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64);
+        let sides =
+            [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
+        let mut faces: Vec<Vec<DVec3>> =
+            sides.iter().map(|side| side.iter().map(|&i| corner(i)).collect()).collect();
+        faces.push(vec![DVec3::splat(0.3), DVec3::new(0.8, 0.3, 0.4), DVec3::new(0.5, 0.7, 0.6)]);
+        let plate = [[0.2, 0.2], [0.2, 0.5], [0.7, 0.5], [0.7, 0.2]];
+        faces.push(plate.iter().map(|&[x, y]| DVec3::new(x, y, 0.25)).collect());
+        let faces = faces.into_iter().map(|points| Face { points, material: 0, object: 0 });
+        let material = Material {
+            name: "grey".to_owned(),
+            reflectance: Rgb::splat(0.5),
+            emission: Rgb::ZERO,
+            two_sided: false,
+        };
+        let faces: Vec<Face> = faces.collect();
+        let scene = Scene::new(&faces, vec![material], vec!["all".to_owned()]);
+        Space::new(scene.expect("a closed box").0, [5, 4, 3])
+    }
+
+    /// Shoots every patch through its own of two environments and on through the other.
+    fn all_shots<S: Simd>(simd: S, space: &Space, environments: &[LocalEnvironment; 2]) {
+        for kind in [HemisphereKind::Fibonacci, HemisphereKind::Concentric] {
+            let hemisphere = Hemisphere::new(kind, 256, false).expect("a square");
+            for (from, own) in environments.iter().enumerate() {
+                for (patch, &Patch { centre, polygon, .. }) in own.patches.iter().enumerate() {
+                    let source = Source {
+                        environment: from as u32,
+                        patch: patch as u32,
+                        polygon,
+                        centre,
+                        normal: space.scene.polygons[polygon as usize].plane.normal,
+                        power: Rgb::ONE,
+                        radiosity: Rgb::ONE,
+                    };
+                    let shoot_through = |environment: &LocalEnvironment, mask: &Mask| {
+                        let shot =
+                            || shoot_on(simd, space, environment, &hemisphere, &source, mask);
+                        let shot = simd.vectorize(shot);
+                        let plain = shoot_plainly(space, environment, &hemisphere, &source, mask);
+                        assert!(shot == plain, "patch {patch} of {from}");
+                        shot
+                    };
+                    let shot = shoot_through(own, &Mask::all(hemisphere.pixels()));
+                    for outgoing in shot.outgoing.iter().flatten() {
+                        shoot_through(&environments[1 - from], &outgoing.mask);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Hosts differ in their vector instructions; rays end in the same places on all of them.
+    #[test]
+    fn all_vector_instructions_shoot_as_single_rays_do() {
+        let space = space();
+        let whole = space.grid.whole();
+        let size = PatchSize { reflector: 0.3, emitter: 0.3 };
+        let (mut low, mut high) = (whole, whole);
+        (low.high[0], high.low[0]) = (2, 2);
+        let environments = [low, high].map(|block| LocalEnvironment::new(&space, block, size));
+        let level = Level::new();
+        dispatch!(level, simd => all_shots(simd, &space, &environments));
+        #[cfg(target_arch = "x86_64")]
+        {
+            if let Some(simd) = level.as_avx2() {
+                all_shots(simd, &space, &environments);
+            }
+            if let Some(simd) = level.as_sse4_2() {
+                all_shots(simd, &space, &environments);
+            }
+            if let Some(simd) = level.as_sse2() {
+                all_shots(simd, &space, &environments);
+            }
+        }
     }
 }

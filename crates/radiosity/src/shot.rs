@@ -72,13 +72,7 @@ impl<'a> Tally<'a> {
         mask: &'a Mask,
         form_factors: FormFactors<'a>,
     ) -> Tally<'a> {
-        Tally {
-            environment,
-            mask,
-            form_factors,
-            outgoing: Default::default(),
-            work: Work::NONE,
-        }
+        Tally { environment, mask, form_factors, outgoing: Default::default(), work: Work::NONE }
     }
 
     /// Form factors to be counted: of each patch, of backs, of what leaves the scene

@@ -9,17 +9,13 @@ const BINS: usize = 16;
 
 /// Split items, each a box, into at most `most` groups: halve the group with the greatest surface until
 /// there are enough. `items` is not empty, and no group is.
-pub(crate) fn split<'a>(
-    boxes: &[Bounds],
-    items: &'a mut [u32],
-    most: usize,
-) -> Vec<&'a mut [u32]> {
+pub(crate) fn split<'a>(boxes: &[Bounds], items: &'a mut [u32], most: usize) -> Vec<&'a mut [u32]> {
     let mut groups = vec![(surface(&around(boxes, items)), items)];
     while groups.len() < most {
         let large = |i: &usize| groups[*i].1.len() > 1;
-        let widest = (0..groups.len()).filter(large).max_by(|&a, &b| {
-            groups[a].0.total_cmp(&groups[b].0).then(b.cmp(&a))
-        });
+        let widest = (0..groups.len())
+            .filter(large)
+            .max_by(|&a, &b| groups[a].0.total_cmp(&groups[b].0).then(b.cmp(&a)));
         let Some(widest) = widest else { break };
         let (_, group) = groups.swap_remove(widest);
         let (low, high) = halve(boxes, group);

@@ -37,9 +37,10 @@ struct Node {
 
 const ITEM: u32 = 1 << 31;
 
-/// Children to be visited, the next one last.
+/// Children to be visited, the next one last: the square of its distance, whose bits sort as it does,
+/// over the child.
 #[derive(Default)]
-pub(crate) struct Waiting(Vec<(f32, u32)>);
+pub(crate) struct Waiting(Vec<u64>);
 
 /// A pyramid in single precision.
 struct Narrow {
@@ -99,9 +100,10 @@ impl Tree {
         let pyramid = Narrow::new(pyramid, self.reach);
         let mut limit = f32::INFINITY;
         waiting.clear();
-        waiting.push((0.0, 0));
-        while let Some((square_distance, child)) = waiting.pop() {
-            if square_distance > limit {
+        waiting.push(0);
+        while let Some(next) = waiting.pop() {
+            let child = next as u32;
+            if f32::from_bits((next >> 32) as u32) > limit {
                 continue;
             }
             if child & ITEM != 0 {
@@ -115,15 +117,17 @@ impl Tree {
             let (mut met, distances) = node.meets(simd, &pyramid, limit);
             let first = waiting.len();
             while met != 0 {
-                let i = met.trailing_zeros() as usize;
+                let i = met.trailing_zeros() as usize % WIDE;
                 met &= met - 1;
+                let child = u64::from(distances[i].to_bits()) << 32 | u64::from(node.children[i]);
                 // Nearest last, to be taken first.
-                let mut place = waiting.len();
-                waiting.push((distances[i], node.children[i]));
-                while place > first && waiting[place - 1].0 < distances[i] {
-                    waiting.swap(place - 1, place);
+                waiting.push(child);
+                let mut place = waiting.len() - 1;
+                while place > first && waiting[place - 1] < child {
+                    waiting[place] = waiting[place - 1];
                     place -= 1;
                 }
+                waiting[place] = child;
             }
         }
         true

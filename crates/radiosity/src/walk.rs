@@ -110,7 +110,8 @@ impl<'a> Walk<'a> {
             start(lattice.start, cast);
             return;
         }
-        let never = entry.enter(simd, lattice, rays, course.ways, cast, start);
+        let never = entry.find(simd, lattice, rays, course.ways, cast);
+        entry.cells.iter().for_each(|&(cell, rays)| start(cell, rays));
         if never != 0 {
             let side = lattice.block.side_towards(lattice.start, course.ways[0] == Way::Up);
             walked.left[side.index()] |= never;
@@ -162,8 +163,8 @@ impl Course {
     fn new(lattice: &Lattice, ways: [Way; 3]) -> Course {
         let [nx, ny, _] = lattice.grid.cells().map(|n| n as i32);
         let mut course = Course { ways, step: [0; 3], stride: [1, nx, nx * ny], end: [0; 3] };
-        for axis in 0..3 {
-            let (step, end) = match ways[axis] {
+        for (axis, way) in ways.into_iter().enumerate() {
+            let (step, end) = match way {
                 Way::Down => (-1, lattice.block.low[axis]),
                 Way::Level => (0, 0),
                 Way::Up => (1, lattice.block.high[axis]),
@@ -201,4 +202,3 @@ fn next_crossings<S: Simd>(
     }
     found
 }
-

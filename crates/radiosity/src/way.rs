@@ -16,16 +16,16 @@ impl Way {
         let first = among & among.wrapping_neg();
         let mut ways = [Way::Level; 3];
         let mut alike = among;
-        for axis in 0..3 {
+        for (axis, way) in ways.iter_mut().enumerate() {
             let (up, level) = (rays.up[axis], rays.level[axis]);
-            let (way, same) = if level & first != 0 {
+            let (first_way, same) = if level & first != 0 {
                 (Way::Level, level)
             } else if up & first != 0 {
                 (Way::Up, up)
             } else {
                 (Way::Down, !up & !level)
             };
-            ways[axis] = way;
+            *way = first_way;
             alike &= same;
         }
         (ways, alike)
