@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use scenemaker::SceneKind;
+use scenemaker::{SceneKind, SceneText};
 
 use crate::exit::Exit;
 
@@ -12,6 +12,9 @@ use crate::exit::Exit;
 pub struct Arguments {
     /// office, rooms or building
     kind: SceneKind,
+    /// Floors of the building, instead of its five; its files are then called building-N
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(2..=1000))]
+    floors: Option<u16>,
     /// Seed of what is drawn at random
     #[arg(long, value_name = "N", default_value_t = 1996)]
     seed: u64,
@@ -25,12 +28,23 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let out = &arguments.out;
     std::fs::create_dir_all(out)
         .map_err(|error| Exit::bad_input(format!("{}: no folder: {error}", out.display())))?;
-    let text = scenemaker::make(arguments.kind, arguments.seed);
+    let text = text(arguments)?;
     let mut output = String::new();
     for (ending, contents) in [("obj", &text.obj), ("mtl", &text.mtl)] {
-        let path = out.join(format!("{}.{ending}", arguments.kind.name()));
+        let path = out.join(format!("{}.{ending}", text.name));
         lab::write_file(&path, contents.as_bytes()).map_err(Exit::failure)?;
         output += &format!("{}\n", path.display());
     }
     Ok(output)
+}
+
+fn text(arguments: &Arguments) -> Result<SceneText, Exit> {
+    match (arguments.floors, arguments.kind) {
+        (None, kind) => Ok(scenemaker::make(kind, arguments.seed)),
+        (Some(floors), SceneKind::Building) => scenemaker::make_building(floors, arguments.seed)
+            .ok_or_else(|| Exit::bad_input(format!("{floors} floors; expected 2 to 1000"))),
+        (Some(_), kind) => {
+            Err(Exit::bad_input(format!("--floors for {kind}; expected it for building alone")))
+        }
+    }
 }
