@@ -214,7 +214,17 @@ fn files_that_an_experiment_names_are_refused_at_their_own_places() {
             "scenes/box.json",
             r#"{"obj": "box.obj", "patch_size": "1 m", "cut": "4x1x1"}"#,
             "scenes/box.json:1: cut: unknown field \"cut\", did you mean \"cuts\"? (there are: \
-             $schema, title, obj, patch_size, emitter_patch_size, cells, cuts, source)",
+             $schema, title, obj, made, patch_size, emitter_patch_size, cells, cuts, source)",
+        ),
+        (
+            "scenes/box.json",
+            r#"{"patch_size": "1 m"}"#,
+            "scenes/box.json: expected either \"obj\", a file, or \"made\"",
+        ),
+        (
+            "scenes/box.json",
+            r#"{"made": {"building_floors": 1}, "patch_size": "1 m"}"#,
+            "scenes/box.json:1: made.building_floors: 1; expected 2 to 1000",
         ),
         (
             "experiments/paper.csv",
