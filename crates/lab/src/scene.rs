@@ -1,5 +1,6 @@
 //! A scene: its geometry, with its description if it has one.
 
+use std::cell::RefCell;
 use std::path::Path;
 use std::{fs, io};
 
@@ -8,7 +9,6 @@ use scenemaker::{FLOORS, SceneText, make_building};
 use crate::digest::FileDigest;
 use crate::document::Document;
 use crate::fault::Fault;
-use crate::file;
 use crate::find::Found;
 use crate::place::Place;
 use crate::scene_file::SceneFile;
@@ -68,20 +68,21 @@ impl Scene {
         label: &Path,
         reader: &dyn Fn(&Path) -> io::Result<Vec<u8>>,
     ) -> Result<Scene, Fault> {
+        let folder = path.parent().unwrap_or(Path::new(""));
+        // Materials decide the light as much as the geometry does. What is missing is warned of.
+        let digests = RefCell::new(Vec::new());
+        let digesting = |path: &Path| {
+            let bytes = reader(path)?;
+            let name = path.strip_prefix(folder).unwrap_or(path);
+            let label = label.with_file_name(name).display().to_string();
+            digests.borrow_mut().push(FileDigest::of_bytes(&bytes, &label));
+            Ok(bytes)
+        };
         let (geometry, warnings) =
-            radiosity::load_obj_from(path, reader).map_err(Fault::complete)?;
-        let label_text = label.display().to_string();
-        let warnings = warnings.iter().map(|warning| format!("{label_text}: {warning}")).collect();
-        let obj = reader(path).map_err(|error| file::unreadable(path, error))?;
-        let mut digests = vec![FileDigest::of_bytes(&obj, &label_text)];
-        // Materials decide the light as much as the geometry does. What is missing was warned of.
-        for library in material_libraries(&obj) {
-            if let Ok(bytes) = reader(&path.with_file_name(&library)) {
-                let label = label.with_file_name(&library).display().to_string();
-                digests.push(FileDigest::of_bytes(&bytes, &label));
-            }
-        }
-        Ok(Scene { file: None, geometry, warnings, digests })
+            radiosity::load_obj_from(path, &digesting).map_err(Fault::complete)?;
+        let label = label.display();
+        let warnings = warnings.iter().map(|warning| format!("{label}: {warning}")).collect();
+        Ok(Scene { file: None, geometry, warnings, digests: digests.into_inner() })
     }
 }
 
@@ -94,11 +95,4 @@ fn made(document: &Document, file: &SceneFile) -> Result<Option<SceneText>, Faul
         document.fault(&Place::of("made").key("building_floors"), message)
     });
     text.map(Some)
-}
-
-/// The material files that an OBJ file names.
-fn material_libraries(obj: &[u8]) -> Vec<String> {
-    let text = String::from_utf8_lossy(obj);
-    let names = text.lines().filter_map(|line| line.trim().strip_prefix("mtllib "));
-    names.map(|name| name.trim().to_owned()).collect()
 }

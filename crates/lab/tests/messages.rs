@@ -34,7 +34,7 @@ fn experiments_are_refused_with_place_value_and_expectation() {
             "experiments/x.json:2: processor: unknown field \"processor\", did you mean \
              \"processors\"? (there are: $schema, title, scene, machine, processors, \
              local_environments, cut, cells, patch_size, emitter_patch_size, hemisphere, \
-             selection, ties, stop, merge_masks, mapping, radiosity_updates, seed, compare_with, \
+             selection, ties, stop, merge_masks, mapping, radiosity_updates, keep_shots, seed, compare_with, \
              plots)",
         ),
         (
@@ -145,7 +145,10 @@ fn experiments_are_refused_with_place_value_and_expectation() {
              speed_up, paper_time_s, paper_speed_up, local_shots, received_shots, messages, \
              message_bytes, busy_fraction, energy_error, efficiency, update_messages, \
              update_bytes, control_messages, ending, energy_lost, patches, absorbed, unshot, \
-             in_transit, escaped, operations, failure)",
+             in_transit, escaped, operations, failure, operations.pixel_test, operations.ray, \
+             operations.cell_step, operations.polygon_test, operations.hit, operations.plane_test, \
+             operations.patch_update, operations.patch_scan, operations.queue_scan, \
+             operations.word_copied, host.cpu_s, host.set_up_s, host.clock_s)",
         ),
         (
             &format!(
