@@ -12,19 +12,13 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// Runs the experiment with two scenes of 64 environments, and fewer rays, into `out`.
-fn run(out: &Path) {
-    let small = [
-        r#"scene=["building","building-10"]"#,
-        "processors=[16,64]",
-        "local_environments=64",
-        "hemisphere.pixels=256",
-    ];
+/// Runs the experiment into `out` with some values set.
+fn run(out: &Path, values: &[&str]) {
     let output = Command::new(env!("CARGO_BIN_EXE_virtwall"))
         .current_dir(root())
         .args(["run", "experiments/scale.json", "--threads", "2", "--out"])
         .arg(out)
-        .args(small.iter().flat_map(|set| ["--set", set]))
+        .args(values.iter().flat_map(|value| ["--set", value]))
         .output()
         .unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
@@ -51,10 +45,28 @@ fn runs(csv: &str) -> Vec<Numbers> {
     lines.map(numbers).collect()
 }
 
+/// The cheapest row of the committed results is what the program finds.
+#[test]
+fn committed_results_are_the_programs() {
+    let folder = tempfile::tempdir().unwrap();
+    run(folder.path(), &["scene=building", "processors=256"]);
+    let read = |out: &Path| fs::read_to_string(out.join("runs.csv")).unwrap();
+    let (found, committed) = (read(folder.path()), read(&root().join("results/scale")));
+    for line in found.lines() {
+        assert!(committed.lines().any(|other| other == line), "not in results/scale: {line}");
+    }
+}
+
 #[test]
 fn a_small_instance_scales() {
     let folder = tempfile::tempdir().unwrap();
-    run(folder.path());
+    let small = [
+        r#"scene=["building","building-10"]"#,
+        "processors=[16,64]",
+        "local_environments=64",
+        "hemisphere.pixels=256",
+    ];
+    run(folder.path(), &small);
     work_grows_with_the_scene_and_not_with_the_nodes(folder.path());
     plots_tell_exponents_and_the_report_nothing_of_the_host(folder.path());
 }
