@@ -28,3 +28,14 @@ impl HostClock {
         self.thread.elapsed().as_secs_f64()
     }
 }
+
+/// What the host took for one run.
+#[derive(Clone, Copy, Debug)]
+pub struct HostTimes {
+    /// CPU seconds of the thread that did it; what other threads did for it is not among them.
+    pub cpu_s: f64,
+    /// CPU seconds of making its scene ready: reading, cleaning, cutting, meshing. Runs share it.
+    pub set_up_s: f64,
+    /// Seconds on the clock.
+    pub clock_s: f64,
+}

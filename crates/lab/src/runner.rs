@@ -8,8 +8,7 @@ use virtwall::KeptShots;
 
 use crate::engine::{self, On};
 use crate::figures::Figures;
-use crate::host_clock::HostClock;
-use crate::host_times::HostTimes;
+use crate::host_clock::{HostClock, HostTimes};
 use crate::plan::Plan;
 use crate::queue::{Queue, Task};
 use crate::saved::Saved;

@@ -62,13 +62,13 @@ impl Drawing {
         }
         // A logarithm has no place for zero or less.
         let [log_x, log_y] = plot.logarithmic();
-        let fits = |(x, y): &(f64, f64)| (!log_x || *x > 0.0) && (!log_y || *y > 0.0);
+        let fits = |(x, y): &(f64, f64)| (!log_x || !numeric || *x > 0.0) && (!log_y || *y > 0.0);
         for series in &mut drawing.series {
             for points in [&mut series.simulated, &mut series.paper] {
                 points.retain(fits);
                 points.sort_by(|a, b| a.0.total_cmp(&b.0));
             }
-            if plot.power_law {
+            if plot.power_law && numeric {
                 series.add_law();
             }
         }
