@@ -89,10 +89,10 @@ pub struct Experiment {
     /// Whether compute nodes send radiosity updates to the service node. Paper: Figure 6.
     #[serde(default = "yes")]
     pub radiosity_updates: bool,
-    /// Whether shots are kept for the runs that need them again. It changes no result, only what
+    /// Whether runs use the shots of others again. It changes no result, only what
     /// the host takes: off where that is to be measured, so that no run lives on another's work.
     #[serde(default = "yes", skip_serializing_if = "is_true")]
-    pub keep_shots: bool,
+    pub reuse_shots: bool,
     /// Seed of every random choice.
     #[serde(default = "default_seed")]
     pub seed: u64,

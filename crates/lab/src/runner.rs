@@ -143,7 +143,7 @@ impl Desk<'_> {
         let (watch, index) = (Arc::clone(&self.watch), task.run);
         let on_shot = Arc::new(move || watch(Event::Shot { run: index }));
         let nothing_kept = Arc::new(KeptShots::new(0));
-        let kept = if run.point.keep_shots { &task.kept } else { &nothing_kept };
+        let kept = if run.point.reuse_shots { &task.kept } else { &nothing_kept };
         let run = engine::run(problem, &run.point, kept, on_shot);
         engine::carry_out(&run, self.options.on, machine)
     }
