@@ -66,8 +66,8 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     progress.end();
 
     let results = Results::of(&plan, &endings, options).map_err(Exit::failure)?;
-    results.write(&out).map_err(Exit::failure)?;
     lab::write_host_times(&out, &endings, clock.seconds(), threads).map_err(Exit::failure)?;
+    results.write(&out).map_err(Exit::failure)?;
     let output = format!("{}\n{}\nResults are in {place}.\n", plan.title, results.text());
     match results.failures() {
         0 => Ok(output),

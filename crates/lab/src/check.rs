@@ -25,7 +25,7 @@ pub fn check(path: &Path) -> Result<String, Fault> {
         let (runs, problems) = (plan.runs.len(), plan.problems.len());
         return Ok(format!("an experiment, {runs} runs of {problems} meshed scenes"));
     }
-    if has("obj") {
+    if has("obj") || has("made") {
         return scene(path, "a scene");
     }
     if has("processor") || has("network") {
@@ -33,7 +33,7 @@ pub fn check(path: &Path) -> Result<String, Fault> {
         let nodes = (machine.compute_nodes(), machine.service_nodes());
         return Ok(format!("a machine, {} compute nodes and {} service nodes", nodes.0, nodes.1));
     }
-    let message = "neither an experiment (\"scene\"), a scene (\"obj\") nor a machine (\"processor\"); \
+    let message = "neither an experiment (\"scene\"), a scene (\"obj\" or \"made\") nor a machine (\"processor\"); \
                    expected one of them, or an OBJ file";
     Err(Fault::of_file(path.display(), message))
 }

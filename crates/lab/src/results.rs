@@ -13,6 +13,8 @@ use crate::document::Document;
 use crate::experiment::Plot;
 use crate::fault::Fault;
 use crate::file::{self, PLAIN, is_plain};
+use crate::host_clock::HostTimes;
+use crate::host_times;
 use crate::place::Place;
 use crate::plan::Plan;
 use crate::report;
@@ -85,7 +87,8 @@ impl Results {
         Ok(())
     }
 
-    /// Draws plots and report into a folder; returns the names of the files.
+    /// Draws plots and report into a folder, with the host's times that it holds; returns the names
+    /// of the files.
     ///
     /// # Errors
     /// If a file cannot be written.
@@ -93,12 +96,16 @@ impl Results {
         let sweeps = self.sweeps();
         let mut names = Vec::new();
         let mut drawings = Vec::new();
+        let table = host_times::beside(&self.table, out);
         for plot in self.plots() {
-            let svg = chart::svg(&self.table, &sweeps, &plot);
+            let svg = chart::svg(&table, &sweeps, &plot);
             let name = format!("{}.svg", plot.stem());
             file::write(&out.join(&name), svg.as_bytes())?;
             names.push(name);
-            drawings.push(svg);
+            // The report is the same on every host.
+            if !host_times::shown_in(&plot) {
+                drawings.push(svg);
+            }
         }
         let html = report::html(&self.manifest, &self.table, &sweeps, &drawings);
         file::write(&out.join("report.html"), html.as_bytes())?;
@@ -163,8 +170,17 @@ pub fn write_host_times(
     seconds: f64,
     threads: usize,
 ) -> io::Result<()> {
-    let times = json!({ "threads": threads, "seconds": seconds, "runs": endings.host_seconds });
-    file::write(&out.join("host-times.json"), pretty(&times)?.as_bytes())
+    let of_runs = |times: &dyn Fn(&HostTimes) -> f64| -> Value {
+        endings.host.iter().map(|run| run.as_ref().map(times)).collect()
+    };
+    let runs = json!({
+        "cpu_s": of_runs(&|run| run.cpu_s),
+        "set_up_s": of_runs(&|run| run.set_up_s),
+        "clock_s": of_runs(&|run| run.clock_s),
+    });
+    let times = json!({ "threads": threads, "seconds": seconds, "runs": runs });
+    fs::create_dir_all(out)?;
+    file::write(&out.join(host_times::FILE), pretty(&times)?.as_bytes())
 }
 
 fn pretty(value: &Value) -> io::Result<String> {

@@ -4,9 +4,11 @@ use std::io;
 use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use virtwall::KeptShots;
+
 use crate::engine::{self, On};
 use crate::figures::Figures;
-use crate::host_clock::HostClock;
+use crate::host_clock::{HostClock, HostTimes};
 use crate::plan::Plan;
 use crate::queue::{Queue, Task};
 use crate::saved::Saved;
@@ -52,8 +54,8 @@ pub type Ending = Result<Figures, String>;
 pub struct Endings {
     /// In the plan's order; none for a run that was not come to.
     pub runs: Vec<Option<Ending>>,
-    /// Host seconds of each run; none for those found finished.
-    pub host_seconds: Vec<Option<f64>>,
+    /// What the host took for each run; none for those found finished.
+    pub host: Vec<Option<HostTimes>>,
 }
 
 /// Carries out all runs of a plan that are not saved in `out`, and saves each there.
@@ -79,7 +81,7 @@ pub fn carry_out(plan: &Plan, out: &Path, options: Options, watch: Watch) -> io:
         saved,
         keys,
         queue: Mutex::new(Queue::new(plan, waiting, budget)),
-        endings: Mutex::new(Endings { runs: found, host_seconds: vec![None; plan.runs.len()] }),
+        endings: Mutex::new(Endings { runs: found, host: vec![None; plan.runs.len()] }),
         trouble: Mutex::new(None),
     };
     std::thread::scope(|scope| {
@@ -119,10 +121,15 @@ impl Desk<'_> {
                 *held(&self.trouble) = Some(error);
             }
             let run = task.run;
+            let host = HostTimes {
+                cpu_s: clock.cpu_seconds(),
+                set_up_s: self.plan.problems[task.problem].set_up_s,
+                clock_s: clock.seconds(),
+            };
             {
                 let mut endings = held(&self.endings);
                 endings.runs[run] = Some(ending);
-                endings.host_seconds[run] = Some(clock.seconds());
+                endings.host[run] = Some(host);
             }
             held(&self.queue).done(&task);
             (self.watch)(Event::Finished { run });
@@ -135,7 +142,9 @@ impl Desk<'_> {
         let machine = &self.plan.machines[run.machine].machine;
         let (watch, index) = (Arc::clone(&self.watch), task.run);
         let on_shot = Arc::new(move || watch(Event::Shot { run: index }));
-        let run = engine::run(problem, &run.point, &task.kept, on_shot);
+        let nothing_kept = Arc::new(KeptShots::new(0));
+        let kept = if run.point.reuse_shots { &task.kept } else { &nothing_kept };
+        let run = engine::run(problem, &run.point, kept, on_shot);
         engine::carry_out(&run, self.options.on, machine)
     }
 }
