@@ -10,13 +10,14 @@ use crate::chart;
 use crate::console::table_text;
 use crate::digest::sha256;
 use crate::document::Document;
+use crate::engine::On;
 use crate::experiment::Plot;
 use crate::fault::Fault;
 use crate::file::{self, PLAIN, is_plain};
 use crate::place::Place;
 use crate::plan::Plan;
 use crate::report;
-use crate::runner::{Endings, Options};
+use crate::runner::Endings;
 use crate::saved::Saved;
 use crate::table::Table;
 
@@ -33,9 +34,9 @@ impl Results {
     ///
     /// # Errors
     /// None is known: all is made in memory.
-    pub fn of(plan: &Plan, endings: &Endings, options: Options) -> io::Result<Results> {
+    pub fn of(plan: &Plan, endings: &Endings, on: On) -> io::Result<Results> {
         let table = Table::of(plan, endings);
-        let manifest = manifest(plan, &table, options)?;
+        let manifest = manifest(plan, &table, on)?;
         Ok(Results { table, manifest })
     }
 
@@ -129,7 +130,7 @@ impl Results {
 }
 
 /// Everything that says where the results come from, and nothing of the host.
-fn manifest(plan: &Plan, table: &Table, options: Options) -> io::Result<Value> {
+fn manifest(plan: &Plan, table: &Table, on: On) -> io::Result<Value> {
     let problems = plan.problems.iter().map(|prepared| {
         let mut problem = json!(prepared.settings);
         problem["patches"] = prepared.problem.patches().into();
@@ -141,7 +142,7 @@ fn manifest(plan: &Plan, table: &Table, options: Options) -> io::Result<Value> {
     Ok(json!({
         "title": plan.title,
         "virtwall": env!("CARGO_PKG_VERSION"),
-        "on": options.on,
+        "on": on,
         "seed": plan.resolved["seed"],
         "runs": table.rows.len(),
         "runs_csv_sha256": sha256(&table.to_csv()?),
@@ -163,7 +164,20 @@ pub fn write_host_times(
     seconds: f64,
     threads: usize,
 ) -> io::Result<()> {
-    let times = json!({ "threads": threads, "seconds": seconds, "runs": endings.host_seconds });
+    let shots = json!({
+        "asked": endings.shots.asked(),
+        "found_in_memory": endings.shots.in_memory,
+        "found_on_disk": endings.shots.archived,
+        "cast": endings.shots.cast,
+        "cast_in_vain": endings.shots.in_vain,
+        "most_bytes_in_memory": endings.shot_bytes,
+    });
+    let times = json!({
+        "threads": threads,
+        "seconds": seconds,
+        "shots": shots,
+        "runs": endings.host_seconds,
+    });
     file::write(&out.join("host-times.json"), pretty(&times)?.as_bytes())
 }
 
