@@ -3,14 +3,15 @@
 use std::fs;
 use std::sync::OnceLock;
 
-use crate::digest::sha256;
+use xxhash_rust::xxh3::xxh3_128;
 
-/// SHA-256 of this program's own file: what another build has saved or kept is not this one's. Where
+/// A digest of this program's own file: what another build has saved or kept is not this one's. Where
 /// the program cannot read itself, its version must do.
 pub fn program() -> &'static str {
     static PROGRAM: OnceLock<String> = OnceLock::new();
     PROGRAM.get_or_init(|| {
         let bytes = std::env::current_exe().and_then(fs::read);
-        bytes.map_or_else(|_| env!("CARGO_PKG_VERSION").to_owned(), |bytes| sha256(&bytes))
+        let digest = |bytes: Vec<u8>| format!("{:032x}", xxh3_128(&bytes));
+        bytes.map_or_else(|_| env!("CARGO_PKG_VERSION").to_owned(), digest)
     })
 }

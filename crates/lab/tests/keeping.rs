@@ -77,7 +77,23 @@ fn damage_is_never_a_wrong_result() {
     }
 }
 
-/// Two sweeps at a time, each with files of its own.
+/// A folder that can no longer be written to costs the kept shots, not the results.
+#[test]
+fn a_folder_that_has_gone_is_told() {
+    let project = Project::new(SWEEP);
+    let (results, _) = swept(&project, 1 << 30);
+    let plan = Plan::read(&project.path("experiments/x.json"), &[]).unwrap();
+    let shot_files = Some(ShotFiles::open(&project.path("gone")).unwrap());
+    fs::remove_dir(project.path("gone")).unwrap();
+    let (on, memory) = (On::Simulation, 1 << 30);
+    let options = Options { threads: 1, fresh: true, on, memory, shot_files };
+    let endings = carry_out(&plan, &project.path("out"), &options, Arc::new(|_| {})).unwrap();
+    assert!(Results::of(&plan, &endings, on).unwrap().table == results.table);
+    let trouble = options.shot_files.unwrap().trouble().unwrap();
+    assert!(trouble.contains("gone: "), "{trouble}");
+}
+
+/// Three sweeps at a time, each with files of its own.
 #[test]
 fn sweeps_at_a_time_do_not_harm_each_other() {
     let project = Project::new(SWEEP);

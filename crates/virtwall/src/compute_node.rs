@@ -108,9 +108,10 @@ impl ComputeNode {
     async fn choose_best_source(&mut self, process: &impl Process) -> Option<Parcel> {
         let rules = &self.shared.rules;
         let received = self.queue.best(rules.selection);
-        let (local, mut scan) = match self.selecting {
-            true => (self.region.best_patch(), self.region.scan()),
-            false => (None, Work::NONE),
+        let (local, mut scan) = if self.selecting {
+            (self.region.best_patch(), self.region.scan())
+        } else {
+            (None, Work::NONE)
         };
         scan.count(Operation::QueueScan, self.queue.len() as u64);
         self.tally.work += scan;
@@ -134,7 +135,7 @@ impl ComputeNode {
 
     /// The best local patches that are left will be shot sooner or later.
     fn foresee_local(&mut self) {
-        if self.selecting && self.shared.kept.helpers().any() {
+        if self.selecting && self.shared.kept.helpers().want_jobs() {
             self.region.new_best_sources(|parcel| self.shared.foresee(&parcel));
         }
     }

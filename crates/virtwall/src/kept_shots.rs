@@ -19,7 +19,9 @@ use crate::shot_key::ShotKey;
 ///
 /// Shots are kept until memory is full; those that come later are cast each time, or found in the
 /// archive. A sweep asks for the same shots again and again, in much the same order: then whoever makes
-/// room for a shot forgets another that is asked for earlier.
+/// room for a shot forgets another that is asked for earlier. Table 1 with room for half of a scene's
+/// shots finds 44 % of those asked for so, 0 % if the least recently used one is forgotten, 19 % if any
+/// one is; there are 87 % to be found.
 pub struct KeptShots {
     memory: Arc<Memory>,
     archive: Option<Box<dyn Archive>>,
@@ -119,10 +121,9 @@ impl KeptShots {
 
     /// The shot of a parcel: a kept one, or cast now.
     pub(crate) fn shot(&self, problem: &Problem, parcel: &Parcel) -> Shot {
-        let key = ShotKey::of(parcel);
-        match self.claim(key) {
-            None => self.obtain(problem, parcel, key, false, |_| ()),
-            Some(code) => {
+        match self.claim(ShotKey::of(parcel)) {
+            Err(casting) => self.obtain(problem, parcel, casting, |_| ()),
+            Ok(code) => {
                 let environment = &problem.environments[parcel.environment as usize];
                 decode(&code, environment, parcel.mask.pixels())
                     .unwrap_or_else(|_| cast(problem, parcel))
@@ -132,7 +133,7 @@ impl KeptShots {
 
     /// Take note that a shot will be asked for; whether casting it ahead makes sense.
     pub(crate) fn foresee(&self, parcel: &Parcel) -> bool {
-        if !self.helpers.any() {
+        if !self.helpers.want_jobs() {
             return false;
         }
         let key = ShotKey::of(parcel);
@@ -156,17 +157,18 @@ impl KeptShots {
                 _ => return,
             }
         }
-        self.obtain(problem, parcel, key, true, tell);
+        let casting = Casting { kept: self, key, ahead: true, done: None };
+        self.obtain(problem, parcel, casting, tell);
     }
 
-    /// The bytes of a shot; none if the caller must obtain it.
-    fn claim(&self, key: ShotKey) -> Option<Arc<[u8]>> {
+    /// The bytes of a shot, or that the caller must obtain it.
+    fn claim(&self, key: ShotKey) -> Result<Arc<[u8]>, Casting<'_>> {
         let mut table = self.table();
         loop {
             match table.entries.get_mut(&key) {
                 None | Some(Entry::Foreseen) => {
                     table.entries.insert(key, Entry::Casting);
-                    return None;
+                    return Err(Casting { kept: self, key, ahead: false, done: None });
                 }
                 Some(Entry::There { code, found, kept }) => {
                     let (code, kept) = (Arc::clone(code), *kept);
@@ -176,7 +178,7 @@ impl KeptShots {
                         table.entries.remove(&key);
                         table.ahead -= code.len() + OVERHEAD;
                     }
-                    return Some(code);
+                    return Ok(code);
                 }
                 // While another thread is at it, do something useful.
                 Some(Entry::Casting) => match self.helpers.take() {
@@ -193,16 +195,15 @@ impl KeptShots {
         }
     }
 
-    /// Take a shot from the archive or cast it; its entry says that it is being cast.
+    /// Take a shot from the archive or cast it.
     fn obtain(
         &self,
         problem: &Problem,
         parcel: &Parcel,
-        key: ShotKey,
-        ahead: bool,
+        mut casting: Casting,
         tell: impl FnOnce(&Shot),
     ) -> Shot {
-        let mut casting = Casting { kept: self, key, ahead, done: None };
+        let key = casting.key;
         let environment = &problem.environments[parcel.environment as usize];
         let archived =
             self.archive.as_ref().and_then(|archive| archive.find(&key)).and_then(|code| {

@@ -5,6 +5,7 @@
 mod common;
 
 use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
@@ -127,6 +128,28 @@ fn an_archive_outlives_the_run() {
     assert_eq!(first, ShotCounts { cast, in_memory: asked - cast, ..none });
     assert_eq!(count(1 << 30), ShotCounts { archived: cast, in_memory: asked - cast, ..none });
     assert_eq!(count(0), ShotCounts { archived: asked, ..none });
+}
+
+/// An archive that panics, once.
+struct Faulty(AtomicBool);
+
+impl Archive for Faulty {
+    fn find(&self, _: &ShotKey) -> Option<Vec<u8>> {
+        assert!(self.0.swap(true, Relaxed), "as it should");
+        None
+    }
+
+    fn put(&self, _: &ShotKey, _: &[u8]) {}
+}
+
+/// A shot that a thread gave up is cast by the next that asks for it.
+#[test]
+fn a_panic_leaves_nothing_waiting() {
+    let faulty = Box::new(Faulty(AtomicBool::new(false)));
+    let kept = KeptShots::sharing(&Arc::new(Memory::new(1 << 20)), &Arc::default(), Some(faulty));
+    let kept = Arc::new(kept);
+    assert!(catch_unwind(AssertUnwindSafe(|| outcome(&kept, rules()))).is_err());
+    same(&outcome(&kept, rules()), &outcome(&Arc::new(KeptShots::new(0)), rules()));
 }
 
 /// Bytes that cannot be a shot of their environment are cast anew: too few, too many, another's.
