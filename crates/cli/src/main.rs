@@ -5,6 +5,7 @@
 mod bench_rays;
 mod check;
 mod exit;
+mod machine_replay;
 mod plot;
 mod progress;
 mod run;
@@ -37,6 +38,9 @@ enum Command {
     /// Make a scene of the paper, or look at any scene.
     #[command(subcommand)]
     Scene(SceneCommand),
+    /// Look at machines, and try their networks.
+    #[command(subcommand)]
+    Machine(MachineCommand),
     /// Measure how fast this host is.
     #[command(subcommand)]
     Bench(BenchCommand),
@@ -48,6 +52,12 @@ enum Command {
 enum BenchCommand {
     /// Cast rays from random points of any scene.
     Rays(bench_rays::Arguments),
+}
+
+#[derive(Subcommand)]
+enum MachineCommand {
+    /// Send traffic of your own over a machine's network, and print the course of every message.
+    Replay(machine_replay::Arguments),
 }
 
 #[derive(Subcommand)]
@@ -65,6 +75,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Scene(SceneCommand::Make(arguments)) => scene_make::run(&arguments),
         Command::Scene(SceneCommand::Show(arguments)) => scene_show::run(&arguments),
+        Command::Machine(MachineCommand::Replay(arguments)) => machine_replay::run(&arguments),
         Command::Bench(BenchCommand::Rays(arguments)) => bench_rays::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
     };

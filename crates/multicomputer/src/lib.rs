@@ -5,25 +5,35 @@
 //! [`Multicomputer`] is such a machine running over [`desim`], whose processes each hold a
 //! [`Node`].
 //!
-//! Contention on links would be one more [`Network`]; memory and disks would be further costs of a
-//! [`Node`].
+//! Memory and disks would be further costs of a [`Node`].
 
 mod account;
+mod agenda;
+mod fault;
 mod file;
 mod machine;
-mod mesh;
 mod multicomputer;
 mod network;
 mod node;
 mod processor;
 pub mod quantity;
+mod replay;
 mod sourced;
+mod topology;
+mod trace;
 
 pub use account::NodeAccount;
+pub use fault::MachineFault;
 pub use file::machine_schema;
-pub use machine::{Machine, MachineError, MachineFault};
-pub use mesh::{Link, Mesh, Place, Position};
+pub use machine::{Machine, MachineError};
 pub use multicomputer::Multicomputer;
-pub use network::{Delivery, Ideal, LogGp, LogGpParameters, Network, NetworkModel};
+pub use network::{
+    Arrival, Channel, ChannelUse, Deadlock, Delivery, Flit, Foretold, Formula, Ideal,
+    LinkParameters, LogGp, LogGpParameters, Message, Network, NetworkParameters, Rung, Stall,
+    Waiting, Wormhole,
+};
 pub use node::{Node, Rank};
 pub use processor::Processor;
+pub use replay::{Course, ReplayDeadlock, replay};
+pub use topology::{Hop, Link, Place, Position, Shape, Topology};
+pub use trace::{Item, Trace, trace_schema};

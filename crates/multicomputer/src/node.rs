@@ -4,11 +4,11 @@ use std::cell::RefCell;
 use std::mem;
 use std::rc::Rc;
 
-use desim::{Duration, Handle, Signal, Time};
+use desim::{Alarm, Duration, Handle, Signal, Time};
 
 use crate::account::{Activity, Ledger};
-use crate::mesh::Place;
-use crate::network::Network;
+use crate::network::{Arrival, Deadlock, Message, Network};
+use crate::topology::Place;
 
 /// Number of a process, from 0.
 pub type Rank = usize;
@@ -22,8 +22,66 @@ pub struct Node<M> {
 /// What all nodes of a multicomputer share.
 pub(crate) struct Shared<M> {
     pub(crate) handle: Handle,
-    pub(crate) network: RefCell<Box<dyn Network>>,
+    pub(crate) wires: RefCell<Wires<M>>,
+    /// Goes off when the network has something to do.
+    pub(crate) news: Alarm,
     pub(crate) nodes: Vec<NodeState<M>>,
+}
+
+/// The network, and what is under way on it.
+pub(crate) struct Wires<M> {
+    pub(crate) network: Box<dyn Network>,
+    /// Messages under way with the ranks they go to; the network knows them by their index.
+    under_way: Vec<Option<(Rank, M)>>,
+    free: Vec<usize>,
+    arrived: Vec<Arrival>,
+    /// The messages that will never arrive.
+    pub(crate) deadlock: Option<Deadlock>,
+}
+
+impl<M> Wires<M> {
+    pub(crate) fn new(network: Box<dyn Network>) -> Wires<M> {
+        let (under_way, free, arrived) = (Vec::new(), Vec::new(), Vec::new());
+        Wires { network, under_way, free, arrived, deadlock: None }
+    }
+
+    /// Sends a message; returns when the sending processor may go on.
+    fn send(&mut self, now: Time, ends: (Place, Place), bytes: u64, letter: (Rank, M)) -> Time {
+        let slot = self.free.pop().unwrap_or(self.under_way.len());
+        match self.under_way.get_mut(slot) {
+            Some(free) => *free = Some(letter),
+            None => self.under_way.push(Some(letter)),
+        }
+        let (from, to) = ends;
+        self.network.send(now, Message { id: slot as u64, from, to, bytes })
+    }
+}
+
+impl<M> Shared<M> {
+    /// The network goes on until now; what has arrived is put into mailboxes.
+    pub(crate) fn advance(&self) {
+        let mut wires = self.wires.borrow_mut();
+        let mut arrived = mem::take(&mut wires.arrived);
+        if let Err(deadlock) = wires.network.advance(self.handle.now(), &mut arrived) {
+            self.handle.halt(deadlock.to_string());
+            wires.deadlock = Some(deadlock);
+        }
+        for arrival in arrived.drain(..) {
+            let slot = arrival.message.id as usize;
+            if let Some((to, message)) = wires.under_way[slot].take() {
+                wires.free.push(slot);
+                self.nodes[to].arrive(message);
+            }
+        }
+        wires.arrived = arrived;
+        self.expect_news(&wires);
+    }
+
+    fn expect_news(&self, wires: &Wires<M>) {
+        if let Some(time) = wires.network.next_event() {
+            self.news.set(time);
+        }
+    }
 }
 
 /// What a multicomputer keeps for a node.
@@ -79,14 +137,16 @@ impl<M: 'static> Node<M> {
     /// # Panics
     /// When no process has the rank `to`.
     pub async fn send(&self, to: Rank, bytes: u64, message: M) {
-        let shared = self.shared.clone();
-        let (from, receiver) = (self.state(), &shared.nodes[to]);
-        let delivery =
-            shared.network.borrow_mut().deliver(self.now(), from.place, receiver.place, bytes);
+        let (from, receiver) = (self.state(), &self.shared.nodes[to]);
+        let sender_free = {
+            let mut wires = self.shared.wires.borrow_mut();
+            let ends = (from.place, receiver.place);
+            let sender_free = wires.send(self.now(), ends, bytes, (to, message));
+            self.shared.expect_news(&wires);
+            sender_free
+        };
         from.ledger.borrow_mut().sent(bytes);
-        let post = shared.clone();
-        shared.handle.at(delivery.arrives, move || post.nodes[to].arrive(message));
-        self.busy(Activity::Send, delivery.sender_free).await;
+        self.busy(Activity::Send, sender_free).await;
     }
 
     /// Takes what has arrived, in order of arrival. The processor is busy for the receive overhead
@@ -96,7 +156,7 @@ impl<M: 'static> Node<M> {
         let messages = mem::take(&mut *self.state().mailbox.borrow_mut());
         if !messages.is_empty() {
             let count = messages.len() as u64;
-            let overhead = self.shared.network.borrow().receive_overhead();
+            let overhead = self.shared.wires.borrow().network.receive_overhead();
             self.state().ledger.borrow_mut().received(count);
             self.busy(Activity::Receive, self.now() + overhead * count).await;
         }

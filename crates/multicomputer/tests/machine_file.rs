@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-use multicomputer::{Machine, MachineError, NetworkModel, machine_schema};
+use multicomputer::{Machine, MachineError, Rung, machine_schema};
 use serde_json::{Value, json};
 
 fn machines(name: &str) -> PathBuf {
@@ -26,7 +26,8 @@ fn the_paragon() {
     assert_eq!(machine.processor.clock, 50e6);
     assert_eq!(machine.processor.price("cell_step"), Some(64.0 * machine.processor.scale / 50e6));
     assert_eq!(machine.processor.price("daydream"), None);
-    let NetworkModel::LogGp(network) = &machine.network else { panic!("LogGP") };
+    assert_eq!(machine.rung, Some(Rung::LogGp));
+    let network = machine.parameters.software.unwrap();
     // The published latency is what an empty message takes.
     let latency = network.send_overhead + network.latency + network.receive_overhead;
     assert_eq!(latency.to_string(), "42 µs");
@@ -36,7 +37,7 @@ fn the_paragon() {
 fn an_ideal_network_needs_no_parameters() {
     let mut file = paragon();
     file["network"] = json!({ "model": "ideal" });
-    assert_eq!(read(&file).unwrap().network, NetworkModel::Ideal);
+    assert_eq!(read(&file).unwrap().rung, Some(Rung::Ideal));
 }
 
 /// The shipped file with the value at a JSON pointer replaced.
