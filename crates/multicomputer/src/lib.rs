@@ -21,6 +21,7 @@ mod replay;
 mod sourced;
 mod topology;
 mod trace;
+mod traffic;
 
 pub use account::NodeAccount;
 pub use fault::MachineFault;
@@ -37,3 +38,4 @@ pub use processor::Processor;
 pub use replay::{Course, ReplayDeadlock, replay};
 pub use topology::{Hop, Link, Place, Position, Shape, Topology};
 pub use trace::{Item, Trace, trace_schema};
+pub use traffic::{Load, Measured, Pattern};
