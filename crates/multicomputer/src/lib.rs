@@ -11,6 +11,7 @@ mod account;
 mod agenda;
 mod fault;
 mod file;
+mod kernels;
 mod machine;
 mod multicomputer;
 mod network;
@@ -26,6 +27,7 @@ mod traffic;
 pub use account::NodeAccount;
 pub use fault::MachineFault;
 pub use file::machine_schema;
+pub use kernels::{KernelError, exchange, hot_spot, ping_pong};
 pub use machine::{Machine, MachineError};
 pub use multicomputer::Multicomputer;
 pub use network::{
