@@ -54,7 +54,10 @@ fn fault(place: String, error: &serde_json::Error) -> MachineFault {
     let message = error.to_string();
     // serde_json appends the position to its message; it is told apart here.
     let suffix = format!(" at line {line} column {column}");
-    let message = message.strip_suffix(&suffix).unwrap_or(&message).to_owned();
+    let message = message.strip_suffix(&suffix).unwrap_or(&message);
+    // Without Rust's names of types.
+    let message = message.replace("expected u64", "expected a whole number, 0 or more");
+    let message = message.replace("expected a sequence", "expected a list");
     let line_and_column = (line > 0).then_some((line, column));
     MachineFault { file: String::new(), line_and_column, place, message }
 }

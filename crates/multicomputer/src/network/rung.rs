@@ -80,7 +80,7 @@ pub struct NetworkParameters {
 
 impl NetworkParameters {
     /// A network on a rung, with nothing under way; none without the parameters that it needs.
-    pub(crate) fn build(&self, rung: Rung, topology: &Topology) -> Option<Box<dyn Network>> {
+    pub fn build(&self, rung: Rung, topology: &Topology) -> Option<Box<dyn Network>> {
         let software = self.software.clone();
         let links = self.links.clone();
         Some(match rung {

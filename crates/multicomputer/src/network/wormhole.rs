@@ -73,26 +73,15 @@ struct Use {
 /// A message on its way.
 struct Worm {
     message: Message,
-    path: Vec<Step>,
+    /// Its lanes, each with the time since when it has it.
+    path: Vec<(u32, Time)>,
     /// Lanes that its head has got.
     taken: usize,
     /// Lanes that its tail has left.
     left: usize,
     /// Since when its head waits.
     since: Time,
-    /// Until when `passed` is known.
-    known: Time,
     stalls: Vec<Stall>,
-}
-
-/// A lane of a worm's path.
-#[derive(Clone, Copy)]
-struct Step {
-    lane: u32,
-    /// Since when the worm has it.
-    since: Time,
-    /// The time that those of its bytes took that have gone over it.
-    passed: Duration,
 }
 
 #[derive(Clone, Copy)]
@@ -132,17 +121,15 @@ impl Wormhole {
     fn worm(&mut self, message: Message) -> u32 {
         let number = self.idle_worms.pop().unwrap_or(self.worms.len() as u32);
         if number as usize == self.worms.len() {
-            let (path, stalls) = (Vec::new(), Vec::new());
-            let (since, known) = (Time::ZERO, Time::ZERO);
-            self.worms.push(Worm { message, path, taken: 0, left: 0, since, known, stalls });
+            let (since, path, stalls) = (Time::ZERO, Vec::new(), Vec::new());
+            self.worms.push(Worm { message, path, taken: 0, left: 0, since, stalls });
         }
         let worm = &mut self.worms[number as usize];
         (worm.message, worm.taken, worm.left) = (message, 0, 0);
         worm.path.clear();
         let mut add = |channel, second: bool| {
             let second = if second { self.channels.count() } else { 0 };
-            let lane = (self.channels.number(channel) + second) as u32;
-            worm.path.push(Step { lane, since: Time::ZERO, passed: Duration::ZERO });
+            worm.path.push(((self.channels.number(channel) + second) as u32, Time::ZERO));
         };
         add(Channel::Injection(message.from), false);
         for hop in self.topology.route(message.from, message.to) {
@@ -160,7 +147,7 @@ impl Wormhole {
     /// The head of a worm has come to its next lane: takes it, or waits in line.
     fn request(&mut self, number: u32, now: Time) {
         let worm = &mut self.worms[number as usize];
-        let lane_number = worm.path[worm.taken].lane;
+        let lane_number = worm.path[worm.taken].0;
         let lane = &mut self.lanes[lane_number as usize];
         if lane.holder.is_none() && lane.queue.is_empty() {
             if lane.free <= now {
@@ -188,28 +175,23 @@ impl Wormhole {
     fn take(&mut self, number: u32, now: Time) {
         let worm = &mut self.worms[number as usize];
         let step = worm.taken;
-        let lane = &mut self.lanes[worm.path[step].lane as usize];
+        let lane = &mut self.lanes[worm.path[step].0 as usize];
+        debug_assert!(lane.holder.is_none() && lane.free <= now, "two worms in a lane");
         lane.holder = Some(number);
         if lane.queue.is_empty() {
             lane.tenants.forget(now);
         }
-        worm.path[step].since = now;
-        worm.follow(
-            now,
-            self.links.passage(self.links.flit_bytes * self.links.buffer_flits as u64),
-        );
+        worm.path[step].1 = now;
         worm.taken += 1;
+        let bytes = worm.message.bytes;
         if worm.taken == worm.path.len() {
             return self.stream(number, now);
         }
+        self.shrink(number, now);
         let until_next = match step {
-            0 => self.links.gathering(&self.software, worm.message.bytes),
+            0 => self.links.gathering(&self.software, bytes),
             _ => self.software.hop_time,
         };
-        if step == 0 {
-            worm.known = now + until_next;
-        }
-        self.shrink(number, now);
         match until_next {
             Duration::ZERO => self.request(number, now),
             span => self.agenda.enter(now + span, Event::Head(number)),
@@ -229,7 +211,7 @@ impl Wormhole {
                 0 => self.links.gathering(&self.software, worm.message.bytes),
                 _ => Duration::ZERO,
             };
-            let passed = worm.path[step].since + gathering + passage;
+            let passed = worm.path[step].1 + gathering + passage;
             self.leave(number, step, now.max(passed));
         }
     }
@@ -241,13 +223,14 @@ impl Wormhole {
         let mut start = now;
         if self.second_lanes {
             // The other lane's bytes go first.
-            let passed = worm.path.iter().map(|step| self.uses[self.channel_of(step.lane)].passed);
+            let passed = worm.path.iter().map(|step| self.uses[self.channel_of(step.0)].passed);
             start = passed.fold(start, Time::max);
         }
         let done = start + self.links.passage(message.bytes);
         for step in left..steps {
-            let passed = self.worms[number as usize].path[step].passed;
-            let tail = Time::ZERO + ((done - Time::ZERO) - passed);
+            // From the port the tail goes over as many links as from the first link.
+            let ahead = (steps - 1 - step.max(1)) as u64;
+            let tail = Time::ZERO + ((done - Time::ZERO) - self.software.hop_time * ahead);
             self.leave(number, step, tail.max(now));
         }
         self.agenda.enter(done + self.software.latency, Event::Arrive(number));
@@ -256,7 +239,7 @@ impl Wormhole {
     /// The tail of a worm will have left a lane of its path at `until`.
     fn leave(&mut self, number: u32, step: usize, until: Time) {
         let worm = &mut self.worms[number as usize];
-        let Step { lane: lane_number, since, .. } = worm.path[step];
+        let (lane_number, since) = worm.path[step];
         worm.left = step + 1;
         let gap = if step == 0 { self.software.gap } else { Duration::ZERO };
         let channel = lane_number as usize % self.channels.count();
@@ -278,25 +261,13 @@ impl Wormhole {
     fn deadlock(&self) -> Deadlock {
         let waits = |number: u32| {
             let worm = &self.worms[number as usize];
-            let lane = worm.path[worm.taken].lane;
+            let lane = worm.path[worm.taken].0;
             let channel = self.channels.channel(self.channel_of(lane));
             let holder = self.lanes[lane as usize].holder?;
             Some((worm.message, channel, holder))
         };
         let stuck = self.lanes.iter().find_map(|lane| lane.queue.front());
         Deadlock::find(stuck.copied().unwrap_or_default(), &self.topology, waits)
-    }
-}
-
-impl Worm {
-    /// The body follows the head, which has just moved on, until the buffers behind it are full.
-    fn follow(&mut self, now: Time, buffer: Duration) {
-        let span = now - self.known;
-        self.known = self.known.max(now);
-        let behind = self.path[self.left..self.taken].iter_mut().rev();
-        for (buffers, step) in (1..).zip(behind) {
-            step.passed = (step.passed + span).min(buffer * buffers);
-        }
     }
 }
 
