@@ -89,12 +89,12 @@ impl Trace {
     /// # Errors
     /// [`MachineFault`], which names file, item, field, value and what was expected.
     pub fn from_json(text: &str, file_name: &str, nodes: usize) -> Result<Trace, MachineFault> {
-        let checked = read(text).and_then(|items| check(items, nodes));
+        let checked = read::<Vec<ItemFile>>(text).and_then(|items| check(&items, nodes));
         checked.map_err(|fault| MachineFault { file: file_name.to_owned(), ..fault })
     }
 }
 
-fn check(items: Vec<ItemFile>, nodes: usize) -> Result<Trace, MachineFault> {
+fn check(items: &[ItemFile], nodes: usize) -> Result<Trace, MachineFault> {
     let mut numbers = BTreeMap::new();
     for (index, item) in items.iter().enumerate() {
         let (id, place) = (item.id.to_string(), format!("[{index}].id"));
@@ -107,7 +107,7 @@ fn check(items: Vec<ItemFile>, nodes: usize) -> Result<Trace, MachineFault> {
             return Err(MachineFault::at(place, message));
         }
     }
-    let items = items.into_iter().enumerate();
+    let items = items.iter().enumerate();
     let items = items.map(|(index, item)| checked(index, item, nodes, &numbers));
     let trace = Trace { items: items.collect::<Result<_, _>>()? };
     match trace.circle() {
@@ -124,7 +124,7 @@ fn check(items: Vec<ItemFile>, nodes: usize) -> Result<Trace, MachineFault> {
 /// An item whose fields are right by themselves.
 fn checked(
     index: usize,
-    item: ItemFile,
+    item: &ItemFile,
     nodes: usize,
     numbers: &BTreeMap<String, usize>,
 ) -> Result<Item, MachineFault> {

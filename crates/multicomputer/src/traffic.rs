@@ -102,8 +102,7 @@ impl Load {
             let partners = self.pattern.partners(topology, nodes, from);
             let mut at = Time::ZERO + self.gap(&mut random);
             while at < self.until && !partners.is_empty() {
-                let chosen = random.next_u64() as u128 * partners.len() as u128 >> 64;
-                let to = partners[chosen as usize];
+                let to = partners[below(partners.len(), random.next_u64())];
                 if to != from {
                     let (name, bytes) = (String::new(), self.bytes);
                     items.push(Item { name, at, from, to, bytes, after: Vec::new() });
@@ -123,6 +122,11 @@ impl Load {
         let seconds = -libm::log(share) * self.every.as_seconds_f64();
         Duration::from_seconds_f64(seconds)
     }
+}
+
+/// A number below `count`, evenly spread as `random` is over all numbers.
+fn below(count: usize, random: u64) -> usize {
+    ((u128::from(random) * count as u128) >> 64) as usize
 }
 
 /// What a load found, after the network has filled and before it empties.

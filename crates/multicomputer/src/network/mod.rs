@@ -11,6 +11,7 @@ mod formula;
 mod ideal;
 mod links;
 mod loggp;
+mod routers;
 mod rung;
 mod tenants;
 mod wormhole;
