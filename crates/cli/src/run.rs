@@ -25,6 +25,10 @@ pub struct Arguments {
     /// processors=[1,2]; a list sweeps
     #[arg(long, value_name = "PATH=VALUE")]
     set: Vec<String>,
+    /// Model of the network: ideal, loggp, wormhole, flit, or auto, the cheapest that will do;
+    /// short for --set network=RUNG
+    #[arg(long, value_name = "RUNG")]
+    network: Option<String>,
     /// What the programs run on
     #[arg(long, value_enum, default_value = "simulation")]
     on: OnArgument,
@@ -44,7 +48,9 @@ enum OnArgument {
 /// Runs the experiment; returns the table of its results.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let clock = HostClock::start();
-    let plan = Arc::new(Plan::read(&arguments.file, &arguments.set)?);
+    let network = arguments.network.iter().map(|rung| format!("network={rung}"));
+    let set: Vec<String> = arguments.set.iter().cloned().chain(network).collect();
+    let plan = Arc::new(Plan::read(&arguments.file, &set)?);
     let default = || PathBuf::from("results").join(&plan.name);
     let out = arguments.out.clone().unwrap_or_else(default);
     let place = out.display();

@@ -40,18 +40,29 @@ const LAST: [&str; 13] = [
     "failure",
 ];
 
-/// All columns of a sweep, in order: the first ones, swept fields not among them, the last ones.
-pub fn names(axes: &[Axis]) -> Vec<String> {
+/// The columns after these, where results tell of the network.
+const OF_THE_NETWORK: [&str; 4] = ["network_used", "network_why", "busiest_link", "blocked_s"];
+
+/// All columns of a sweep, in order: the first ones, swept fields not among them, the last ones, and
+/// those of the network if they are asked for.
+pub fn names(axes: &[Axis], of_the_network: bool) -> Vec<String> {
     let swept = axes.iter().map(|axis| axis.place.to_string());
     let swept = swept.filter(|name| !FIRST.contains(&name.as_str()));
     let first = FIRST.iter().map(|&name| name.to_owned());
-    first.chain(swept).chain(LAST.iter().map(|&name| name.to_owned())).collect()
+    let network = OF_THE_NETWORK.iter().filter(|_| of_the_network);
+    let last = LAST.iter().chain(network).map(|&name| name.to_owned());
+    first.chain(swept).chain(last).collect()
 }
 
 /// What a figure's column holds; `None` if the column is no figure of a run by itself.
 pub fn figure(figures: &Figures, column: &str) -> Option<String> {
     let energy = &figures.energy;
+    let network = figures.network.as_ref();
     Some(match column {
+        "network_used" => network.map_or(String::new(), |network| network.rung.clone()),
+        "network_why" => network.map_or(String::new(), |network| network.why.clone()),
+        "busiest_link" => optional(network.and_then(|network| network.busiest_link), 6),
+        "blocked_s" => optional(network.map(|network| network.blocked_s), 9),
         "time_s" => optional(figures.time_s, 6),
         "local_shots" => figures.local_shots.to_string(),
         "received_shots" => figures.received_shots.to_string(),

@@ -20,6 +20,7 @@ mod file;
 mod find;
 mod host_clock;
 mod json;
+mod network;
 mod open_machine;
 mod open_scene;
 mod place;

@@ -11,6 +11,7 @@ use virtwall::Problem;
 use crate::comparison::Comparison;
 use crate::digest::FileDigest;
 use crate::experiment::{Experiment, Plot};
+use crate::network;
 use crate::settings::Settings;
 use crate::sweep::Axis;
 
@@ -38,6 +39,14 @@ pub struct Plan {
     pub warnings: Vec<String>,
     /// All files read, each once, by label.
     pub files: Vec<FileDigest>,
+}
+
+impl Plan {
+    /// Whether its results tell of the network.
+    pub fn tells_of_the_network(&self) -> bool {
+        let machine = |run: &Run| &self.machines[run.machine].machine;
+        self.runs.iter().any(|run| network::tells(machine(run), run.point.network))
+    }
 }
 
 /// One run.

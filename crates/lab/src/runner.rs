@@ -135,8 +135,9 @@ impl Desk<'_> {
         let machine = &self.plan.machines[run.machine].machine;
         let (watch, index) = (Arc::clone(&self.watch), task.run);
         let on_shot = Arc::new(move || watch(Event::Shot { run: index }));
-        let run = engine::run(problem, &run.point, &task.kept, on_shot);
-        engine::carry_out(&run, self.options.on, machine)
+        let point = &run.point;
+        let run = engine::run(problem, point, &task.kept, on_shot);
+        engine::carry_out(&run, point, self.options.on, machine)
     }
 }
 

@@ -9,6 +9,7 @@
 
 mod account;
 mod agenda;
+mod auto;
 mod fault;
 mod file;
 mod kernels;
@@ -18,6 +19,7 @@ mod network;
 mod node;
 mod processor;
 pub mod quantity;
+mod record;
 mod replay;
 mod sourced;
 mod topology;
@@ -25,6 +27,7 @@ mod trace;
 mod traffic;
 
 pub use account::NodeAccount;
+pub use auto::{Choice, choose};
 pub use fault::MachineFault;
 pub use file::machine_schema;
 pub use kernels::{KernelError, exchange, hot_spot, ping_pong};
@@ -37,6 +40,7 @@ pub use network::{
 };
 pub use node::{Node, Rank};
 pub use processor::Processor;
+pub use record::{Letter, Record, Recorder};
 pub use replay::{Course, ReplayDeadlock, replay};
 pub use topology::{Hop, Link, Place, Position, Shape, Topology};
 pub use trace::{Item, Trace, trace_schema};

@@ -1,6 +1,7 @@
 //! A node as the process that runs on it sees it: compute, send, receive, wait.
 
 use std::cell::RefCell;
+use std::collections::VecDeque;
 use std::mem;
 use std::rc::Rc;
 
@@ -31,9 +32,11 @@ pub(crate) struct Shared<M> {
 /// The network, and what is under way on it.
 pub(crate) struct Wires<M> {
     pub(crate) network: Box<dyn Network>,
-    /// Messages under way with the ranks they go to; the network knows them by their index.
-    under_way: Vec<Option<(Rank, M)>>,
-    free: Vec<usize>,
+    /// Messages under way with the ranks they go to, and some that have arrived: in the order in
+    /// which they were sent, so that the network may know each by a number of its own.
+    under_way: VecDeque<Option<(Rank, M)>>,
+    /// The number of the first of them.
+    first: u64,
     arrived: Vec<Arrival>,
     /// The messages that will never arrive.
     pub(crate) deadlock: Option<Deadlock>,
@@ -41,19 +44,26 @@ pub(crate) struct Wires<M> {
 
 impl<M> Wires<M> {
     pub(crate) fn new(network: Box<dyn Network>) -> Wires<M> {
-        let (under_way, free, arrived) = (Vec::new(), Vec::new(), Vec::new());
-        Wires { network, under_way, free, arrived, deadlock: None }
+        let (under_way, arrived) = (VecDeque::new(), Vec::new());
+        Wires { network, under_way, first: 0, arrived, deadlock: None }
     }
 
     /// Sends a message; returns when the sending processor may go on.
     fn send(&mut self, now: Time, ends: (Place, Place), bytes: u64, letter: (Rank, M)) -> Time {
-        let slot = self.free.pop().unwrap_or(self.under_way.len());
-        match self.under_way.get_mut(slot) {
-            Some(free) => *free = Some(letter),
-            None => self.under_way.push(Some(letter)),
-        }
+        let id = self.first + self.under_way.len() as u64;
+        self.under_way.push_back(Some(letter));
         let (from, to) = ends;
-        self.network.send(now, Message { id: slot as u64, from, to, bytes })
+        self.network.send(now, Message { id, from, to, bytes })
+    }
+
+    /// Hands over a message that has arrived.
+    fn take(&mut self, id: u64) -> Option<(Rank, M)> {
+        let letter = self.under_way.get_mut(id.checked_sub(self.first)? as usize)?.take();
+        while let Some(None) = self.under_way.front() {
+            self.under_way.pop_front();
+            self.first += 1;
+        }
+        letter
     }
 }
 
@@ -67,9 +77,7 @@ impl<M> Shared<M> {
             wires.deadlock = Some(deadlock);
         }
         for arrival in arrived.drain(..) {
-            let slot = arrival.message.id as usize;
-            if let Some((to, message)) = wires.under_way[slot].take() {
-                wires.free.push(slot);
+            if let Some((to, message)) = wires.take(arrival.message.id) {
                 self.nodes[to].arrive(message);
             }
         }
