@@ -5,6 +5,7 @@
 mod bench_rays;
 mod check;
 mod exit;
+mod machine_compare;
 mod machine_replay;
 mod plot;
 mod progress;
@@ -56,6 +57,8 @@ enum BenchCommand {
 
 #[derive(Subcommand)]
 enum MachineCommand {
+    /// Hold the wormhole model of a machine's network against flits, under synthetic traffic.
+    Compare(machine_compare::Arguments),
     /// Send traffic of your own over a machine's network, and print the course of every message.
     Replay(machine_replay::Arguments),
 }
@@ -75,6 +78,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Scene(SceneCommand::Make(arguments)) => scene_make::run(&arguments),
         Command::Scene(SceneCommand::Show(arguments)) => scene_show::run(&arguments),
+        Command::Machine(MachineCommand::Compare(arguments)) => machine_compare::run(&arguments),
         Command::Machine(MachineCommand::Replay(arguments)) => machine_replay::run(&arguments),
         Command::Bench(BenchCommand::Rays(arguments)) => bench_rays::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),

@@ -74,7 +74,9 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let results = Results::of(&plan, &endings, options).map_err(Exit::failure)?;
     results.write(&out).map_err(Exit::failure)?;
     lab::write_host_times(&out, &endings, clock.seconds(), threads).map_err(Exit::failure)?;
-    let output = format!("{}\n{}\nResults are in {place}.\n", plan.title, results.text());
+    let networks = lab::networks_text(&plan, &endings);
+    let (title, table) = (&plan.title, results.text());
+    let output = format!("{title}\n{table}\n{networks}Results are in {place}.\n");
     match results.failures() {
         0 => Ok(output),
         failures => {

@@ -41,7 +41,8 @@ const LAST: [&str; 13] = [
 ];
 
 /// The columns after these, where results tell of the network.
-const OF_THE_NETWORK: [&str; 4] = ["network_used", "network_why", "busiest_link", "blocked_s"];
+const OF_THE_NETWORK: [&str; 5] =
+    ["network_used", "network_why", "difference_from_finest", "busiest_link", "blocked_s"];
 
 /// All columns of a sweep, in order: the first ones, swept fields not among them, the last ones, and
 /// those of the network if they are asked for.

@@ -44,4 +44,4 @@ pub use record::{Letter, Record, Recorder};
 pub use replay::{Course, ReplayDeadlock, replay};
 pub use topology::{Hop, Link, Place, Position, Shape, Topology};
 pub use trace::{Item, Trace, trace_schema};
-pub use traffic::{Load, Measured, Pattern};
+pub use traffic::{Load, Measured, Pattern, fluid_bound};

@@ -124,15 +124,7 @@ fn an_exchange_of_neighbours_costs_the_same_with_and_without_contention() {
 /// A network without software, whose cycle is 1 ns, and whose hop takes `cycles` of them.
 fn bare(flit_bytes: u64, cycles: u64, virtual_channels: u32) -> NetworkParameters {
     let bandwidth = flit_bytes as f64 * 1e9;
-    let zero = Duration::ZERO;
-    let software = LogGpParameters {
-        send_overhead: zero,
-        latency: zero,
-        hop_time: Duration(1_000) * cycles,
-        receive_overhead: zero,
-        gap: zero,
-        bandwidth,
-    };
+    let software = LogGpParameters::bare(Duration(1_000) * cycles, bandwidth);
     let links = LinkParameters { bandwidth, flit_bytes, buffer_flits: 8, virtual_channels };
     NetworkParameters { software: Some(software), links: Some(links) }
 }

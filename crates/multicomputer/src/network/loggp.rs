@@ -42,6 +42,13 @@ impl LogGpParameters {
         Duration::from_seconds_f64(bytes as f64 / self.bandwidth)
     }
 
+    /// A message layer that costs nothing, over links of this bandwidth: the bare network.
+    pub fn bare(hop_time: Duration, bandwidth: f64) -> LogGpParameters {
+        let (send_overhead, latency) = (Duration::ZERO, Duration::ZERO);
+        let (receive_overhead, gap) = (Duration::ZERO, Duration::ZERO);
+        LogGpParameters { send_overhead, latency, hop_time, receive_overhead, gap, bandwidth }
+    }
+
     /// The closed formula: from the send of a message of `bytes`, alone on the network, until it has
     /// been read `hops` links away.
     pub fn one_way(&self, bytes: u64, hops: u32) -> Duration {
