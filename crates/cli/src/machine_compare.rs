@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use clap::Args;
 use desim::{Duration, Time};
+use lab::OpenMachine;
 use multicomputer::{
     Load, LogGpParameters, Machine, Measured, NetworkParameters, Pattern, Rung, fluid_bound, replay,
 };
@@ -39,7 +40,7 @@ pub struct Arguments {
 
 /// Compares; returns a table, and how near the two models are.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
-    let machine = lab::open_machine(&arguments.machine)?;
+    let machine = OpenMachine::load(&arguments.machine)?.machine;
     machine.network_on(Rung::Flit).map_err(Exit::bad_input)?;
     let mut text = format!("{}, messages of {} B\n", machine.title, arguments.bytes);
     text += "pattern        load  messages   wormhole us       flit us  difference\n";

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::Args;
+use lab::OpenMachine;
 use multicomputer::{Course, Rung, Trace, replay};
 
 use crate::exit::Exit;
@@ -26,7 +27,7 @@ pub struct Arguments {
 
 /// Sends the traffic; returns the course of every message as CSV.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
-    let machine = lab::open_machine(&arguments.machine)?;
+    let machine = OpenMachine::load(&arguments.machine)?.machine;
     let file = arguments.trace.display().to_string();
     let text = lab::read_text(&arguments.trace)?;
     let trace = Trace::from_json(&text, &file, machine.nodes()).map_err(Exit::bad_input)?;

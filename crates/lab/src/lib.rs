@@ -45,14 +45,20 @@ mod table;
 
 pub use check::check;
 pub use engine::On;
-pub use experiment::experiment_schema;
+pub use experiment::{Plot, experiment_schema};
 pub use fault::Fault;
 pub use file::{read_text, write as write_file};
 pub use host_clock::HostClock;
 pub use networks::text as networks_text;
-pub use open_machine::open_machine;
+pub use open_machine::OpenMachine;
 pub use open_scene::OpenScene;
 pub use plan::Plan;
 pub use results::{Results, write_host_times};
 pub use runner::{Endings, Event, Options, Watch, carry_out};
 pub use scene_file::scene_schema;
+pub use table::Table;
+
+/// Draws a plot of a table as the text of an SVG file; a column `paper_<y>` holds published points.
+pub fn svg(table: &Table, plot: &Plot) -> String {
+    chart::svg(table, &[], plot)
+}

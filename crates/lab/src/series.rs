@@ -33,11 +33,7 @@ impl Drawing {
         let numeric = unit.is_some();
         let unit = unit.unwrap_or_default().to_owned();
         let mut drawing = Drawing { series: Vec::new(), categories: Vec::new(), unit };
-        let paper = match plot.y.as_str() {
-            "speed_up" => "paper_speed_up",
-            "time_s" => "paper_time_s",
-            _ => "",
-        };
+        let paper = format!("paper_{}", plot.y);
         for row in &table.rows {
             let x = if numeric {
                 table.number(row, &plot.x).unwrap_or_default()
@@ -47,7 +43,7 @@ impl Drawing {
             let name = name(table, row, sweeps, plot);
             let series = line(&mut drawing.series, name);
             series.simulated.extend(table.number(row, &plot.y).map(|y| (x, y)));
-            series.paper.extend(table.number(row, paper).map(|y| (x, y)));
+            series.paper.extend(table.number(row, &paper).map(|y| (x, y)));
         }
         // A logarithm has no place for zero or less.
         let fits = |(x, y): &(f64, f64)| (!plot.log_x || *x > 0.0) && (!plot.log_y || *y > 0.0);

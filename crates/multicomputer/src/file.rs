@@ -44,6 +44,19 @@ pub(crate) struct MachineFile {
     pub(crate) processor: ProcessorFile,
     /// How messages travel.
     pub(crate) network: NetworkFile,
+    /// What has been measured on the real machine, to stand beside what is simulated.
+    #[serde(default)]
+    pub(crate) published: PublishedFile,
+}
+
+/// Published measurements of messages between two neighbours.
+#[derive(Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields, expecting = "an object of published measurements")]
+pub(crate) struct PublishedFile {
+    /// Time of the shortest message, from sender to receiver.
+    pub(crate) latency: Option<Sourced<Quantity<Time>>>,
+    /// Bytes a second of the longest messages.
+    pub(crate) bandwidth: Option<Sourced<Quantity<Bandwidth>>>,
 }
 
 /// A two-dimensional mesh or torus; messages go along the row first, then along the column.

@@ -31,7 +31,7 @@ pub use auto::{Choice, choose};
 pub use fault::MachineFault;
 pub use file::machine_schema;
 pub use kernels::{KernelError, exchange, hot_spot, ping_pong};
-pub use machine::{Machine, MachineError};
+pub use machine::{Machine, MachineError, Published};
 pub use multicomputer::Multicomputer;
 pub use network::{
     Arrival, Channel, ChannelUse, Deadlock, Delivery, Flit, Foretold, Formula, Ideal,

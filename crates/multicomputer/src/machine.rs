@@ -24,9 +24,20 @@ pub struct Machine {
     pub parameters: NetworkParameters,
     /// The rung of its network that the file chooses; none if that is left to be found out.
     pub rung: Option<Rung>,
+    /// What has been measured on the real machine.
+    pub published: Published,
     topology: Topology,
     compute_nodes: usize,
     service_nodes: usize,
+}
+
+/// Published measurements of messages between two neighbours.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Published {
+    /// Time of the shortest message, from sender to receiver.
+    pub latency: Option<desim::Duration>,
+    /// Bytes a second of the longest messages.
+    pub bandwidth: Option<f64>,
 }
 
 /// What cannot be meant.
@@ -138,11 +149,16 @@ fn validate(file: MachineFile) -> Result<Machine, MachineFault> {
     let (shape, hop_time) = shape(&file)?;
     let (title, processor) = (file.title, processor(file.processor));
     let (rung, parameters) = network(&file.network, hop_time)?;
+    let published = Published {
+        latency: file.published.latency.map(|latency| latency.value.duration()),
+        bandwidth: file.published.bandwidth.map(|bandwidth| bandwidth.value.si),
+    };
     Ok(Machine {
         title,
         processor,
         parameters,
         rung,
+        published,
         topology: Topology::new(shape),
         compute_nodes: file.compute_nodes.value.get().into(),
         service_nodes: file.service_nodes.value.get().into(),

@@ -205,7 +205,7 @@ fn faults_of_the_text_name_line_and_column() {
     };
     assert_eq!(message(""), "m.json:1:0: EOF while parsing a value");
     assert_eq!(message("{\n  \"title\": }"), "m.json:2:12: title: expected value");
-    assert_eq!(message(&format!("{text}}}")), "m.json:148:1: trailing characters");
+    assert_eq!(message(&format!("{text}}}")), "m.json:160:1: trailing characters");
     assert_eq!(
         message(&text.replace("\"50 MHz\"", "\"50 m\"")),
         "m.json:33:21: processor.clock.value: found \"50 m\" with the unit \"m\"; \

@@ -9,6 +9,9 @@
 //!    `hop_time` later, rounded down to cycles, at least one; what was rounded off is added when the
 //!    message arrives. A node takes in a flit a cycle.
 //!
+//! Choice C21: a Paragon's router is unpublished in such detail; this is the plainest one that has
+//! all of the mechanisms.
+//!
 //! A virtual channel is free again when the tail has left by it, and room in a buffer counts one cycle
 //! after the flit has gone.
 
