@@ -53,9 +53,15 @@ fn a_replay_can_go_to_a_file() {
     let trace = r#"[{"id": "a", "at": "0 us", "from": 0, "to": 3, "bytes": 4096, "after": []}]"#;
     project.write("t.json", trace);
     let folder = project.path("");
-    let (code, said, _) = virtwall(&folder, &["machine", "replay", "t.json", "--out", "t.csv"]);
+    let arguments = "machine replay t.json --network wormhole --out t.csv --channels c.csv";
+    let arguments: Vec<&str> = arguments.split(' ').collect();
+    let (code, said, _) = virtwall(&folder, &arguments);
     assert_eq!((code, said.as_str()), (0, "1 messages; their courses are in t.csv.\n"));
     let table = fs::read_to_string(project.path("t.csv")).unwrap();
+    // 4,096 B at 175 MB/s.
+    let channels = fs::read_to_string(project.path("c.csv")).unwrap();
+    assert!(channels.contains("\nlink 1→2,1,0.000023405714,0.0000234"), "{channels}");
+    assert!(channels.contains("\nlink 2→1,0,0.000000000000,0.000000000000,0.000000\n"));
     // 42 µs, 3 hops of 40 ns, 4,096 B at 65 MB/s.
     assert!(
         table.ends_with("a,0,3,4096,0.000000000000,0.000105135385,0.000000000000,\n"),
@@ -148,6 +154,24 @@ fn an_experiment_runs_on_every_network_and_says_what_differs() {
         let blocked: f64 = cell(row, "blocked_s").parse().unwrap();
         assert!(blocked == 0.0 || used != "ideal", "{row:?}");
     }
+}
+
+#[test]
+fn a_machine_is_shown_and_measured() {
+    let (code, text, _) = virtwall(&root(), &["machine", "show", "paragon-xps"]);
+    assert_eq!(code, 0);
+    assert!(text.contains("56 compute nodes and 2 service nodes (s) on a mesh, 4 x 16"), "{text}");
+    assert!(text.contains("\n  52 - 53 - 54 - 55\n   s -  s -  . -  .\n"), "{text}");
+    assert!(text.contains("network.links.bandwidth = 175 MB/s (published: "), "{text}");
+
+    let project = Project::new(SWEEP);
+    let (code, text, _) =
+        virtwall(&project.path(""), &["machine", "bench", "paragon-xps", "--out", "bench"]);
+    assert_eq!(code, 0);
+    assert!(text.contains("\n     4096       105.06      38.99"), "{text}");
+    assert!(text.contains("Published: latency 42 µs, bandwidth 65 MB/s."), "{text}");
+    let svg = fs::read_to_string(project.path("bench/megabytes_a_second-by-bytes.svg")).unwrap();
+    assert!(svg.contains("paper"));
 }
 
 #[test]

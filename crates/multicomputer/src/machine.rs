@@ -13,6 +13,9 @@ const MOST_PLACES: u32 = 65_536;
 /// Longest flit, bytes: as long as a link's bandwidth can be told from a message's.
 const LONGEST_FLIT: f64 = 1e9;
 
+/// Most virtual channels a link: real routers have a handful.
+const MOST_VIRTUAL_CHANNELS: u8 = 16;
+
 /// A distributed-memory machine.
 #[derive(Clone, Debug)]
 pub struct Machine {
@@ -242,11 +245,16 @@ fn links(file: &LinksFile, software: &LogGpParameters) -> Result<LinkParameters,
         let message = format!("found {flit} B; expected a whole number of bytes, at least 1");
         return refuse("network.links.flit.value", message);
     }
+    let virtual_channels = file.virtual_channels.value.get();
+    if virtual_channels > MOST_VIRTUAL_CHANNELS {
+        let message = format!("found {virtual_channels}; expected 1 to {MOST_VIRTUAL_CHANNELS}");
+        return refuse("network.links.virtual_channels.value", message);
+    }
     let links = LinkParameters {
         bandwidth,
         flit_bytes: flit as u64,
         buffer_flits: file.buffer_flits.value.get().into(),
-        virtual_channels: file.virtual_channels.value.get().into(),
+        virtual_channels: virtual_channels.into(),
     };
     // Room in a buffer counts again a cycle after a flit has crossed the next hop.
     let least = links.cycles(software.hop_time) + 1;

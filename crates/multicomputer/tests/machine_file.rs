@@ -175,6 +175,10 @@ fn faults_name_place_value_and_what_was_expected() {
             "m.json: network.links.bandwidth.value: found 10 MB/s; expected at least 65 MB/s, the bandwidth of the message layer",
         ),
         (
+            with("/network/links/virtual_channels/value", json!(17)),
+            "m.json: network.links.virtual_channels.value: found 17; expected 1 to 16",
+        ),
+        (
             with("/network/links/flit/value", json!("0.5 B")),
             "m.json: network.links.flit.value: found 0.5 B; expected a whole number of bytes, at least 1",
         ),

@@ -111,7 +111,7 @@ impl Flit {
 
     /// A cycle. Says whether anything moved, or is on its way through a router.
     fn step(&mut self, now: u64) -> bool {
-        self.next = now + 1;
+        self.next = now.saturating_add(1);
         let mut alive = false;
         for place in 0..self.ports.len() {
             alive |= self.inject(place, now);
@@ -120,7 +120,7 @@ impl Flit {
         let rest = self.routers.rest(self.software.hop_time);
         for number in step.out {
             let way = rest * self.routers.worm(number).hops() + self.software.latency;
-            self.arrivals.enter(self.routers.time(now + 1) + way, number);
+            self.arrivals.enter(self.routers.time(now.saturating_add(1)) + way, number);
         }
         alive || step.alive
     }
@@ -134,7 +134,7 @@ impl Flit {
         }
         sending.gone += 1;
         if gone + 1 == flits {
-            let end = self.routers.time(now + 1);
+            let end = self.routers.time(now.saturating_add(1));
             self.routers.injected(worm, end - since);
             self.ports[place].free = end + self.software.gap;
             self.ports[place].sending = None;
