@@ -27,6 +27,10 @@ pub struct Arguments {
     /// processors=[1,2]; a list sweeps
     #[arg(long, value_name = "PATH=VALUE")]
     set: Vec<String>,
+    /// Model of the network: ideal, loggp, wormhole, flit, or auto, the cheapest that will do;
+    /// short for --set network=RUNG
+    #[arg(long, value_name = "RUNG")]
+    network: Option<String>,
     /// What the programs run on
     #[arg(long, value_enum, default_value = "simulation")]
     on: OnArgument,
@@ -59,7 +63,9 @@ enum OnArgument {
 /// Runs the experiment; returns the table of its results.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let clock = HostClock::start();
-    let plan = Arc::new(Plan::read(&arguments.file, &arguments.set)?);
+    let network = arguments.network.iter().map(|rung| format!("network={rung}"));
+    let set: Vec<String> = arguments.set.iter().cloned().chain(network).collect();
+    let plan = Arc::new(Plan::read(&arguments.file, &set)?);
     let default = || PathBuf::from("results").join(&plan.name);
     let out = arguments.out.clone().unwrap_or_else(default);
     let place = out.display();
@@ -85,7 +91,8 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let results = Results::of(&plan, &endings, on).map_err(Exit::failure)?;
     lab::write_host_times(&out, &endings, clock.seconds(), threads).map_err(Exit::failure)?;
     results.write(&out).map_err(Exit::failure)?;
-    let mut output = format!("{}\n{}\n{}", plan.title, results.text(), shots(&endings));
+    let networks = lab::networks_text(&plan, &endings);
+    let mut output = format!("{}\n{}\n{networks}{}", plan.title, results.text(), shots(&endings));
     if let Some(trouble) = options.shot_files.and_then(|files| files.trouble()) {
         output += &format!("Shots could not be kept in {trouble}.\n");
     }

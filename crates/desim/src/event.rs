@@ -1,8 +1,10 @@
 //! The event queue: ordered by (time, sequence number).
 
-use std::collections::BTreeMap;
-use std::rc::Weak;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+use std::rc::Rc;
 
+use crate::alarm::AlarmState;
 use crate::ticket::{ProcessId, Ticket};
 use crate::time::Time;
 
@@ -11,47 +13,44 @@ pub(crate) enum Event {
     /// A process runs for the first time.
     Start(ProcessId),
     /// The time that a wait lasts at most has come.
-    Timer(Weak<Ticket>),
+    Timer(Ticket),
     /// A process whose wait a signal has ended goes on.
-    Wake(Weak<Ticket>),
+    Wake(Ticket),
     /// A callback runs.
     Call(Box<dyn FnOnce()>),
-}
-
-impl Event {
-    /// Whether nothing is left to do: the wait was given up, or a signal ended it before its time.
-    /// Such an event must not even move the clock.
-    fn is_stale(&self) -> bool {
-        match self {
-            Event::Start(_) | Event::Call(_) => false,
-            Event::Timer(ticket) => ticket.upgrade().is_none_or(|t| t.outcome.get().is_some()),
-            Event::Wake(ticket) => ticket.strong_count() == 0,
-        }
-    }
+    /// An alarm goes off, if it is still set for this time.
+    Alarm(Rc<AlarmState>),
 }
 
 /// Events to come. The sequence number is given when an event is scheduled, so that of two events
 /// at one time the one scheduled first happens first.
 #[derive(Default)]
 pub(crate) struct EventQueue {
-    events: BTreeMap<(Time, u64), Event>,
+    /// Time, number, and the slot of the event itself: what a heap moves about should be small.
+    order: BinaryHeap<Reverse<(Time, u64, u32)>>,
+    events: Vec<Option<Event>>,
+    free: Vec<u32>,
     scheduled: u64,
 }
 
 impl EventQueue {
     /// Adds an event.
+    #[inline]
     pub(crate) fn schedule(&mut self, time: Time, event: Event) {
-        self.events.insert((time, self.scheduled), event);
+        let slot = self.free.pop().unwrap_or(self.events.len() as u32);
+        match self.events.get_mut(slot as usize) {
+            Some(free) => *free = Some(event),
+            None => self.events.push(Some(event)),
+        }
+        self.order.push(Reverse((time, self.scheduled, slot)));
         self.scheduled += 1;
     }
 
-    /// Removes the next event that still matters.
+    /// Removes the next event.
+    #[inline]
     pub(crate) fn next(&mut self) -> Option<(Time, Event)> {
-        while let Some(((time, _), event)) = self.events.pop_first() {
-            if !event.is_stale() {
-                return Some((time, event));
-            }
-        }
-        None
+        let Reverse((time, _, slot)) = self.order.pop()?;
+        self.free.push(slot);
+        Some((time, self.events[slot as usize].take()?))
     }
 }

@@ -30,7 +30,7 @@ impl Handle {
         let mut processes = self.0.processes.borrow_mut();
         let id = ProcessId(processes.len());
         let name = name.into().into();
-        processes.push(Process { name, body: Some(Box::pin(future)), tickets: Vec::new() });
+        processes.push(Process { name, body: Some(Box::pin(future)) });
         self.0.schedule(self.now(), Event::Start(id));
         id
     }
@@ -53,6 +53,13 @@ impl Handle {
     /// its own, never made from within `at`.
     pub fn at(&self, time: Time, action: impl FnOnce() + 'static) {
         self.0.schedule(time, Event::Call(Box::new(action)));
+    }
+
+    /// Ends the run once the present event is over, as stalled for the reason given: what the
+    /// processes wait for can never come, though other events may be left.
+    pub fn halt(&self, cause: impl Into<String>) {
+        self.0.halted.borrow_mut().get_or_insert(cause.into());
+        self.0.is_halted.set(true);
     }
 
     /// Has every step of every process reported, as (time, process, what happened), to `observer`,

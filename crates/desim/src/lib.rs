@@ -19,6 +19,7 @@
 //! assert_eq!(simulation.run().unwrap().to_string(), "1.5 s");
 //! ```
 
+mod alarm;
 mod event;
 mod handle;
 mod process;
@@ -30,6 +31,7 @@ mod ticket;
 mod time;
 mod wait;
 
+pub use alarm::Alarm;
 pub use handle::Handle;
 pub use signal::Signal;
 pub use simulation::Simulation;

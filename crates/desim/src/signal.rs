@@ -28,12 +28,11 @@ impl Signal {
 
     /// Wakes every waiting process by an event at the present time, first come, first served.
     pub fn notify(&self) {
-        for waiter in self.waiters.tickets.take() {
-            let Some(ticket) = waiter.upgrade() else { continue };
+        let mut tickets = self.state.tickets.borrow_mut();
+        for waiter in self.waiters.tickets.borrow_mut().drain(..) {
             // Decided here and not when the event comes: a timer of this very moment that is still
             // in the queue came second.
-            if ticket.outcome.get().is_none() {
-                ticket.outcome.set(Some(Outcome::Notified));
+            if tickets.end(waiter, Outcome::Notified) {
                 self.state.schedule(self.state.now.get(), Event::Wake(waiter));
             }
         }

@@ -1,6 +1,6 @@
 //! The executor: one thread of control that takes events in order and lets processes run.
 
-use std::rc::{Rc, Weak};
+use std::rc::Rc;
 use std::task::{Context, Poll, Waker};
 
 use crate::event::Event;
@@ -31,46 +31,54 @@ impl Simulation {
     /// Takes events in order until none is left. Returns the time of the last one.
     ///
     /// # Errors
-    /// [`Stalled`] when processes still wait then.
+    /// [`Stalled`] when processes still wait then, or when the run was halted.
     pub fn run(&self) -> Result<Time, Stalled> {
         while let Some((time, event)) = self.next_event() {
+            if self.state.is_stale(time, &event) {
+                continue;
+            }
             self.state.now.set(time);
             match event {
                 Event::Start(process) => self.resume(process, Observation::Started),
-                Event::Timer(ticket) => self.time_came(&ticket),
-                Event::Wake(ticket) => self.wake(&ticket),
+                Event::Timer(ticket) => self.time_came(ticket),
+                Event::Wake(ticket) => self.wake(ticket),
                 Event::Call(action) => action(),
+                Event::Alarm(alarm) => alarm.go_off(),
+            }
+            if self.state.is_halted.get() {
+                break;
             }
         }
         let at = self.state.now.get();
-        let waiting: Vec<_> =
-            self.state.processes.borrow().iter().filter_map(Process::waiting).collect();
-        if waiting.is_empty() { Ok(at) } else { Err(Stalled { at, waiting }) }
+        self.state.is_halted.set(false);
+        let (waiting, cause) = (self.state.waiting(), self.state.halted.take());
+        match waiting.is_empty() && cause.is_none() {
+            true => Ok(at),
+            false => Err(Stalled { at, cause, waiting }),
+        }
     }
 
     fn next_event(&self) -> Option<(Time, Event)> {
         self.state.queue.borrow_mut().next()
     }
 
-    fn time_came(&self, ticket: &Weak<Ticket>) {
-        if let Some(ticket) = ticket.upgrade() {
-            ticket.outcome.set(Some(Outcome::TimeCame));
-            self.resume(ticket.process, Observation::TimeCame);
-        }
+    fn time_came(&self, ticket: Ticket) {
+        let process = {
+            let mut tickets = self.state.tickets.borrow_mut();
+            tickets.end(ticket, Outcome::TimeCame);
+            tickets.process(ticket)
+        };
+        self.resume(process, Observation::TimeCame);
     }
 
-    fn wake(&self, ticket: &Weak<Ticket>) {
-        if let Some(ticket) = ticket.upgrade() {
-            self.resume(ticket.process, Observation::Notified);
-        }
+    fn wake(&self, ticket: Ticket) {
+        let process = self.state.tickets.borrow().process(ticket);
+        self.resume(process, Observation::Notified);
     }
 
     /// Lets a process run until it waits again or ends.
     fn resume(&self, id: ProcessId, why: Observation) {
-        let Some(mut body) = self.with_process(id, |process| {
-            process.tickets.retain(|t| t.upgrade().is_some_and(|t| t.outcome.get().is_none()));
-            process.body.take()
-        }) else {
+        let Some(mut body) = self.with_process(id, |process| process.body.take()) else {
             return;
         };
         self.observe(id, why);

@@ -5,11 +5,13 @@ use std::fmt;
 
 use crate::time::Time;
 
-/// No event is left, and processes still wait.
+/// No event is left and processes still wait, or a part of the simulation halted it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Stalled {
     /// When the last event happened.
     pub at: Time,
+    /// Why the run was halted; none when it just ran out of events.
+    pub cause: Option<String>,
     /// The processes that have not ended, in order of creation.
     pub waiting: Vec<Waiting>,
 }
@@ -25,7 +27,8 @@ pub struct Waiting {
 
 impl fmt::Display for Stalled {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "stalled at {}: no event is left", self.at)?;
+        write!(f, "stalled at {}: ", self.at)?;
+        f.write_str(self.cause.as_deref().unwrap_or("no event is left"))?;
         for (index, Waiting { process, on }) in self.waiting.iter().enumerate() {
             let separator = if index == 0 { ", but" } else { ";" };
             write!(f, "{separator} {process} waits for {on}")?;

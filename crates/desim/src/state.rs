@@ -1,11 +1,11 @@
 //! What a simulation shares with its handles, signals and waits.
 
 use std::cell::{Cell, RefCell};
-use std::rc::Rc;
 
 use crate::event::{Event, EventQueue};
 use crate::process::Process;
-use crate::ticket::{ProcessId, Reason, Ticket};
+use crate::stalled::Waiting;
+use crate::ticket::{ProcessId, Reason, Ticket, Tickets};
 use crate::time::Time;
 
 /// What an observer is told of a process.
@@ -29,6 +29,10 @@ pub(crate) struct State {
     pub(crate) now: Cell<Time>,
     pub(crate) queue: RefCell<EventQueue>,
     pub(crate) processes: RefCell<Vec<Process>>,
+    pub(crate) tickets: RefCell<Tickets>,
+    /// Why the run has to end here, if it has.
+    pub(crate) halted: RefCell<Option<String>>,
+    pub(crate) is_halted: Cell<bool>,
     /// The process that runs, none while a callback does.
     pub(crate) current: Cell<Option<ProcessId>>,
     pub(crate) observer: RefCell<Option<Observer>>,
@@ -36,6 +40,7 @@ pub(crate) struct State {
 
 impl State {
     /// Schedules an event, not earlier than now.
+    #[inline]
     pub(crate) fn schedule(&self, time: Time, event: Event) {
         self.queue.borrow_mut().schedule(time.max(self.now.get()), event);
     }
@@ -44,13 +49,38 @@ impl State {
     ///
     /// # Panics
     /// When no process runs: a wait of this crate was polled by a foreign executor.
-    pub(crate) fn issue_ticket(&self, on: Reason) -> Rc<Ticket> {
+    #[inline]
+    pub(crate) fn issue_ticket(&self, on: Reason) -> Ticket {
         let process = self.current.get();
         let process = process.expect("only processes of the simulation await its futures");
-        let ticket = Rc::new(Ticket { process, on, outcome: Cell::default() });
-        if let Some(process) = self.processes.borrow_mut().get_mut(process.0) {
-            process.tickets.push(Rc::downgrade(&ticket));
+        self.tickets.borrow_mut().issue(process, on)
+    }
+
+    /// Whether nothing is left to do: the wait was given up, a signal ended it before its time, or
+    /// the alarm was set for another time. Such an event must not even move the clock.
+    #[inline]
+    pub(crate) fn is_stale(&self, time: Time, event: &Event) -> bool {
+        match event {
+            Event::Start(_) | Event::Call(_) => false,
+            Event::Timer(ticket) => !self.tickets.borrow().is_open(*ticket),
+            Event::Wake(ticket) => !self.tickets.borrow().is_held(*ticket),
+            Event::Alarm(alarm) => !alarm.is_due(time),
         }
-        ticket
+    }
+
+    /// The processes that have not ended, and what each waits for.
+    pub(crate) fn waiting(&self) -> Vec<Waiting> {
+        let (processes, tickets) = (self.processes.borrow(), self.tickets.borrow());
+        let left = processes.iter().enumerate().filter(|(_, process)| process.body.is_some());
+        left.map(|(id, process)| {
+            let reasons: Vec<String> =
+                tickets.reasons(ProcessId(id)).map(ToString::to_string).collect();
+            let on = match reasons.is_empty() {
+                true => "a future that no event resolves".to_owned(),
+                false => reasons.join(" or "),
+            };
+            Waiting { process: process.name.to_string(), on }
+        })
+        .collect()
     }
 }

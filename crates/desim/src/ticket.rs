@@ -1,8 +1,8 @@
 //! Tickets: who waits for what, and how the wait ended.
 
-use std::cell::{Cell, RefCell};
+use std::cell::RefCell;
 use std::fmt;
-use std::rc::{Rc, Weak};
+use std::rc::Rc;
 
 use crate::time::Time;
 
@@ -10,12 +10,13 @@ use crate::time::Time;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct ProcessId(pub(crate) usize);
 
-/// One wait under way. The waiting future owns it; events and signals hold it weakly, so that
-/// whatever they still have in hand when the future is done or dropped does no harm.
+/// One wait under way, as events and signals know it. The waiting future retires it when it is done
+/// or dropped, so that whatever they still have in hand then does no harm.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Ticket {
-    pub(crate) process: ProcessId,
-    pub(crate) on: Reason,
-    pub(crate) outcome: Cell<Option<Outcome>>,
+    slot: u32,
+    /// Never used twice: tells a wait from later ones in its slot.
+    issue: u64,
 }
 
 /// How a wait ended.
@@ -48,14 +49,84 @@ pub(crate) struct Waiters {
     /// The signal's name.
     pub(crate) name: String,
     /// In order of arrival.
-    pub(crate) tickets: RefCell<Vec<Weak<Ticket>>>,
+    pub(crate) tickets: RefCell<Vec<Ticket>>,
 }
 
-impl Waiters {
-    /// Adds a waiter, and forgets those that gave up: else waits that time out would pile up.
-    pub(crate) fn enlist(&self, ticket: &Rc<Ticket>) {
-        let mut tickets = self.tickets.borrow_mut();
-        tickets.retain(|ticket| ticket.strong_count() > 0);
-        tickets.push(Rc::downgrade(ticket));
+/// What a ticket stands for.
+struct Slot {
+    issue: u64,
+    process: ProcessId,
+    outcome: Option<Outcome>,
+    /// None once the ticket is retired.
+    on: Option<Reason>,
+}
+
+/// All tickets, in slots that are used again: a wait asks for no memory of its own.
+#[derive(Default)]
+pub(crate) struct Tickets {
+    slots: Vec<Slot>,
+    free: Vec<u32>,
+    issued: u64,
+}
+
+impl Tickets {
+    /// A ticket for a wait that begins.
+    #[inline]
+    pub(crate) fn issue(&mut self, process: ProcessId, on: Reason) -> Ticket {
+        self.issued += 1;
+        let slot = Slot { issue: self.issued, process, outcome: None, on: Some(on) };
+        let number = self.free.pop().unwrap_or(self.slots.len() as u32);
+        match self.slots.get_mut(number as usize) {
+            Some(free) => *free = slot,
+            None => self.slots.push(slot),
+        }
+        Ticket { slot: number, issue: self.issued }
+    }
+
+    /// The wait is over or given up.
+    #[inline]
+    pub(crate) fn retire(&mut self, ticket: Ticket) {
+        if self.is_held(ticket) {
+            self.slots[ticket.slot as usize].on = None;
+            self.free.push(ticket.slot);
+        }
+    }
+
+    /// Decides how a wait ends, unless that is decided already; says whether it was not.
+    pub(crate) fn end(&mut self, ticket: Ticket, outcome: Outcome) -> bool {
+        let open = self.is_open(ticket);
+        if open {
+            self.slots[ticket.slot as usize].outcome = Some(outcome);
+        }
+        open
+    }
+
+    /// Whether somebody still waits with this ticket and its end is not decided.
+    pub(crate) fn is_open(&self, ticket: Ticket) -> bool {
+        self.is_held(ticket) && self.slots[ticket.slot as usize].outcome.is_none()
+    }
+
+    /// Whether the future that waits with this ticket is still there.
+    pub(crate) fn is_held(&self, ticket: Ticket) -> bool {
+        let slot = &self.slots[ticket.slot as usize];
+        slot.issue == ticket.issue && slot.on.is_some()
+    }
+
+    /// The process that waits, or waited, with the latest ticket of this slot.
+    pub(crate) fn process(&self, ticket: Ticket) -> ProcessId {
+        self.slots[ticket.slot as usize].process
+    }
+
+    /// How the wait of a ticket that is held ended, if it did.
+    pub(crate) fn outcome(&self, ticket: Ticket) -> Option<Outcome> {
+        self.slots[ticket.slot as usize].outcome
+    }
+
+    /// What a process waits for: one thing for most, several if it awaits several futures.
+    pub(crate) fn reasons(&self, process: ProcessId) -> impl Iterator<Item = &Reason> {
+        let mut open: Vec<&Slot> =
+            self.slots.iter().filter(|s| s.process == process && s.outcome.is_none()).collect();
+        open.sort_unstable_by_key(|slot| slot.issue);
+        open.into_iter().filter_map(|slot| slot.on.as_ref())
     }
 }

@@ -15,7 +15,7 @@ pub(crate) struct Wait {
     state: Rc<State>,
     on: Reason,
     until: Option<Time>,
-    ticket: Option<Rc<Ticket>>,
+    ticket: Option<Ticket>,
 }
 
 impl Wait {
@@ -24,13 +24,17 @@ impl Wait {
         Wait { state: Rc::clone(state), on, until, ticket: None }
     }
 
-    fn begin(&self) -> Rc<Ticket> {
+    fn begin(&self) -> Ticket {
         let ticket = self.state.issue_ticket(self.on.clone());
         if let Reason::Signal(waiters) = &self.on {
-            waiters.enlist(&ticket);
+            let tickets = self.state.tickets.borrow();
+            let mut waiting = waiters.tickets.borrow_mut();
+            // Those that gave up are forgotten: else waits that time out would pile up.
+            waiting.retain(|&earlier| tickets.is_open(earlier));
+            waiting.push(ticket);
         }
         if let Some(time) = self.until {
-            self.state.schedule(time, Event::Timer(Rc::downgrade(&ticket)));
+            self.state.schedule(time, Event::Timer(ticket));
         }
         ticket
     }
@@ -40,13 +44,18 @@ impl Future for Wait {
     type Output = Outcome;
 
     fn poll(mut self: Pin<&mut Self>, _: &mut Context<'_>) -> Poll<Outcome> {
-        let Some(ticket) = &self.ticket else {
+        let Some(ticket) = self.ticket else {
             self.ticket = Some(self.begin());
             return Poll::Pending;
         };
-        match ticket.outcome.get() {
-            Some(outcome) => Poll::Ready(outcome),
-            None => Poll::Pending,
+        self.state.tickets.borrow().outcome(ticket).map_or(Poll::Pending, Poll::Ready)
+    }
+}
+
+impl Drop for Wait {
+    fn drop(&mut self) {
+        if let Some(ticket) = self.ticket {
+            self.state.tickets.borrow_mut().retire(ticket);
         }
     }
 }

@@ -5,7 +5,7 @@ use std::cell::{Cell, RefCell};
 use std::fmt::Write as _;
 use std::rc::Rc;
 
-use desim::{Duration, Handle, Signal, Simulation, Stalled, Time, Waiting};
+use desim::{Alarm, Duration, Handle, Signal, Simulation, Stalled, Time, Waiting};
 
 /// Lines stamped with virtual time.
 #[derive(Clone)]
@@ -194,6 +194,7 @@ fn a_stall_names_who_waits_for_what() {
         stalled,
         Stalled {
             at: at_ns(2),
+            cause: None,
             waiting: vec![
                 waiting("node 0", "mail at node 0"),
                 waiting("node 1", "mail at node 1"),
@@ -282,4 +283,35 @@ fn a_dropped_simulation_frees_its_processes() {
     assert_eq!(Rc::strong_count(&held), 2);
     drop(simulation);
     assert_eq!(Rc::strong_count(&held), 1);
+}
+
+#[test]
+fn an_alarm_goes_off_at_the_earliest_time_set() {
+    let simulation = Simulation::new();
+    let handle = simulation.handle();
+    let log = Log::new(&handle);
+    let lines = log.clone();
+    let alarm = Alarm::new(&handle, move || lines.line("rings"));
+    alarm.set(at_ns(9));
+    alarm.set(at_ns(4));
+    alarm.set(at_ns(6));
+    let same = alarm.clone();
+    handle.at(at_ns(5), move || same.set(at_ns(7)));
+    // The stale event for 9 ns does not keep the simulation alive.
+    assert_eq!(simulation.run(), Ok(at_ns(7)));
+    log.expect(&["    4 ns  rings", "    7 ns  rings"]);
+}
+
+#[test]
+fn a_halt_ends_the_run_and_says_why() {
+    let simulation = Simulation::new();
+    let handle = simulation.handle();
+    let (h, bell) = (handle.clone(), Signal::new(&handle, "bell"));
+    handle.spawn("listener", async move { bell.wait().await });
+    handle.at(at_ns(1), move || h.halt("the bell is broken"));
+    handle.at(at_ns(2), || panic!("the run goes on"));
+    assert_eq!(
+        simulation.run().unwrap_err().to_string(),
+        "stalled at 1 ns: the bell is broken, but listener waits for bell"
+    );
 }

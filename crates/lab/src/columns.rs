@@ -52,24 +52,36 @@ pub const HOST_TIMES: [&str; 3] = ["cpu_s", "set_up_s", "clock_s"];
 pub const OPERATIONS: [&str; 2] = ["operations", "operations."];
 
 /// All columns that can be drawn: those of a sweep, each count of operations, the host's.
-pub fn drawable(axes: &[Axis]) -> Vec<String> {
+pub fn drawable(axes: &[Axis], of_the_network: bool) -> Vec<String> {
     let counts = engine::operations().map(|count| OPERATIONS[1].to_owned() + count);
     let host = HOST_TIMES.iter().map(|time| HOST.to_owned() + time);
-    names(axes).into_iter().chain(counts).chain(host).collect()
+    names(axes, of_the_network).into_iter().chain(counts).chain(host).collect()
 }
 
-/// All columns of a sweep, in order: the first ones, swept fields not among them, the last ones.
-pub fn names(axes: &[Axis]) -> Vec<String> {
+/// The columns after these, where results tell of the network.
+const OF_THE_NETWORK: [&str; 5] =
+    ["network_used", "network_why", "difference_from_finest", "busiest_link", "blocked_s"];
+
+/// All columns of a sweep, in order: the first ones, swept fields not among them, the last ones, and
+/// those of the network if they are asked for.
+pub fn names(axes: &[Axis], of_the_network: bool) -> Vec<String> {
     let swept = axes.iter().map(|axis| axis.place.to_string());
     let swept = swept.filter(|name| !FIRST.contains(&name.as_str()));
     let first = FIRST.iter().map(|&name| name.to_owned());
-    first.chain(swept).chain(LAST.iter().map(|&name| name.to_owned())).collect()
+    let network = OF_THE_NETWORK.iter().filter(|_| of_the_network);
+    let last = LAST.iter().chain(network).map(|&name| name.to_owned());
+    first.chain(swept).chain(last).collect()
 }
 
 /// What a figure's column holds; `None` if the column is no figure of a run by itself.
 pub fn figure(figures: &Figures, column: &str) -> Option<String> {
     let energy = &figures.energy;
+    let network = figures.network.as_ref();
     Some(match column {
+        "network_used" => network.map_or(String::new(), |network| network.rung.clone()),
+        "network_why" => network.map_or(String::new(), |network| network.why.clone()),
+        "busiest_link" => optional(network.and_then(|network| network.busiest_link), 6),
+        "blocked_s" => optional(network.map(|network| network.blocked_s), 9),
         "time_s" => optional(figures.time_s, 6),
         "local_shots" => figures.local_shots.to_string(),
         "received_shots" => figures.received_shots.to_string(),

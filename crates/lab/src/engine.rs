@@ -12,6 +12,7 @@ use crate::experiment::{self as fields, Experiment};
 use crate::fault::Fault;
 use crate::figures::{Energy, Figures};
 use crate::file;
+use crate::network;
 use crate::settings::{Settings, WrongField};
 
 /// What the programs run on.
@@ -93,17 +94,22 @@ pub fn run(
     }
 }
 
-/// Runs to the end, on the simulated `machine` or on threads.
+/// Runs a point's run to the end, on the simulated `machine` or on threads.
 ///
 /// # Errors
 /// Why the run did not end.
-pub fn carry_out(run: &Run, on: On, machine: &Machine) -> Result<Figures, String> {
+pub fn carry_out(
+    run: &Run,
+    point: &Experiment,
+    on: On,
+    machine: &Machine,
+) -> Result<Figures, String> {
     let outcome = match on {
-        On::Simulation => virtwall::simulate(run, machine),
-        On::Threads => virtwall::run_on_threads(run),
+        On::Simulation => network::simulate(run, machine, point),
+        On::Threads => virtwall::run_on_threads(run).map(|outcome| (outcome, None)),
     };
-    let outcome = outcome.map_err(|error| error.to_string())?;
-    Ok(figures(&run.problem, &outcome, on == On::Simulation))
+    let (outcome, network) = outcome.map_err(|error| error.to_string())?;
+    Ok(Figures { network, ..figures(&run.problem, &outcome, on == On::Simulation) })
 }
 
 /// The outcome's figures; times only if they are virtual.
@@ -135,6 +141,7 @@ fn figures(problem: &Problem, outcome: &Outcome, virtual_time: bool) -> Figures 
             Ending::TooEarly { lost } => Some(lost),
         },
         patches: problem.patches() as u64,
+        network: None,
         work: outcome.work.counts().map(|(op, n)| (op.name().to_owned(), n)).collect(),
     }
 }

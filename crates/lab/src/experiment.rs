@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
+use crate::network::NetworkChoice;
 use crate::quantity::{Fraction, Length, Period, Triple};
 use crate::schema;
 
@@ -37,6 +38,13 @@ pub struct Experiment {
     /// The machine: the name of a file in machines/, or a path, relative to this file.
     #[serde(default = "default_machine")]
     pub machine: String,
+    /// Model of the network, in place of the one that the machine's file chooses. With it come the
+    /// columns network_used, network_why, busiest_link and blocked_s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub network: Option<NetworkChoice>,
+    /// How far the time on the network "auto" may be from that on the next finer one. Default: 1 %.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub network_tolerance: Option<Fraction>,
     /// Compute nodes used, at most as many as there are local environments. Paper: Table 1.
     #[schemars(range(min = 1))]
     pub processors: u32,

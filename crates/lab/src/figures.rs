@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::network::NetworkFigures;
+
 /// The figures of one run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Figures {
@@ -34,6 +36,9 @@ pub struct Figures {
     pub patches: u64,
     /// Operations counted, by name.
     pub work: Vec<(String, u64)>,
+    /// What it tells of its network, if that was asked for.
+    #[serde(default)]
+    pub network: Option<NetworkFigures>,
 }
 
 /// Where the energy is at the end of a run, in shares of the emitted energy, all colours together.

@@ -11,6 +11,8 @@ use virtwall::Problem;
 use crate::comparison::Comparison;
 use crate::digest::FileDigest;
 use crate::experiment::{Experiment, Plot};
+use crate::network;
+use crate::place::Place;
 use crate::settings::Settings;
 use crate::sweep::Axis;
 
@@ -38,6 +40,14 @@ pub struct Plan {
     pub warnings: Vec<String>,
     /// All files read, each once, by label.
     pub files: Vec<FileDigest>,
+}
+
+impl Plan {
+    /// Whether its results tell of the network.
+    pub fn tells_of_the_network(&self) -> bool {
+        let machine = |run: &Run| &self.machines[run.machine].machine;
+        self.runs.iter().any(|run| network::tells(machine(run), run.point.network))
+    }
 }
 
 /// One run.
@@ -72,4 +82,11 @@ pub struct Equipment {
     pub path: PathBuf,
     /// Its file.
     pub digest: FileDigest,
+}
+
+/// Which value a run has of each swept field but `field`.
+pub fn all_else(plan: &Plan, run: &Run, field: &str) -> Vec<usize> {
+    let field = Place::of(field);
+    let fields = plan.axes.iter().zip(&run.index).filter(|(axis, _)| axis.place != field);
+    fields.map(|(_, &item)| item).collect()
 }

@@ -16,6 +16,7 @@ use crate::file::{PLAIN, is_plain};
 use crate::find::{Shelf, find};
 use crate::host_clock::HostClock;
 use crate::measure::Measure;
+use crate::network;
 use crate::place::Place;
 use crate::plan::{Equipment, Plan, Prepared, Run};
 use crate::scene::Scene;
@@ -71,7 +72,6 @@ impl Planner<'_> {
         let first = &runs[0].point;
         let (title, plots) = (first.title.clone(), first.plots.clone());
         let resolved = self.resolved(first);
-        self.check_plots(&plots)?;
         let (comparison, compared) = self.comparison(first)?;
 
         let mut files: Vec<FileDigest> =
@@ -81,7 +81,7 @@ impl Planner<'_> {
         files.sort();
         files.dedup();
         let warnings = self.scenes.values().flat_map(|(s, _)| s.warnings.clone()).collect();
-        Ok(Plan {
+        let plan = Plan {
             name,
             title,
             resolved,
@@ -93,7 +93,9 @@ impl Planner<'_> {
             plots,
             warnings,
             files,
-        })
+        };
+        check_plots(&plan, self.document)?;
+        Ok(plan)
     }
 
     /// The name that the results go by: a plain one, which leads nowhere else.
@@ -132,6 +134,8 @@ impl Planner<'_> {
             );
             return Err(self.fault(point, "processors", message));
         }
+        network::check(&self.machines[machine].machine, typed.network)
+            .map_err(|error| self.fault(point, "network", error.to_string()))?;
         let problem = self.problem(point, &typed)?;
         Ok(Run { index: point.index.clone(), point: typed, problem, machine })
     }
@@ -185,34 +189,6 @@ impl Planner<'_> {
         resolved
     }
 
-    /// Refuses plots of columns that there will not be, or with names that lead elsewhere.
-    fn check_plots(&self, plots: &[Plot]) -> Result<(), Fault> {
-        let known = columns::drawable(&self.sweep.axes);
-        for (i, plot) in plots.iter().enumerate() {
-            let place = Place::of("plots").item(i);
-            let [x, y] = [&plot.x, &plot.y].map(|text| Measure::of(text));
-            let series: Vec<&str> = plot.series.iter().map(String::as_str).collect();
-            for (field, columns) in [("x", x.columns()), ("y", y.columns()), ("series", &series)] {
-                if let Some(column) = columns.iter().find(|&&c| !known.iter().any(|k| k == c)) {
-                    let message = unknown("column", column, &known);
-                    return Err(self.document.fault(&place.key(field), message));
-                }
-            }
-            let stem = plot.stem();
-            if !is_plain(&stem) {
-                let message = format!("\"{stem}\" names a file; expected {PLAIN}");
-                return Err(self.document.fault(&place.key("file"), message));
-            }
-            if plots[..i].iter().any(|earlier| earlier.stem() == stem) {
-                let message = format!(
-                    "\"{stem}.svg\" is an earlier plot too; expected a \"file\" of its own"
-                );
-                return Err(self.document.fault(&place, message));
-            }
-        }
-        Ok(())
-    }
-
     /// The published figures, if there are any, and the file they are from.
     fn comparison(&self, first: &Experiment) -> Result<(Comparison, Option<FileDigest>), Fault> {
         let Some(name) = &first.compare_with else {
@@ -225,6 +201,34 @@ impl Planner<'_> {
         }
         Ok((Comparison::read(&path)?, Some(FileDigest::of(&path, name)?)))
     }
+}
+
+/// Refuses plots of columns that there will not be, or with names that lead elsewhere.
+fn check_plots(plan: &Plan, document: &Document) -> Result<(), Fault> {
+    let plots: &[Plot] = &plan.plots;
+    let known = columns::drawable(&plan.axes, plan.tells_of_the_network());
+    for (i, plot) in plots.iter().enumerate() {
+        let place = Place::of("plots").item(i);
+        let [x, y] = [&plot.x, &plot.y].map(|text| Measure::of(text));
+        let series: Vec<&str> = plot.series.iter().map(String::as_str).collect();
+        for (field, columns) in [("x", x.columns()), ("y", y.columns()), ("series", &series)] {
+            if let Some(column) = columns.iter().find(|&&c| !known.iter().any(|k| k == c)) {
+                let message = unknown("column", column, &known);
+                return Err(document.fault(&place.key(field), message));
+            }
+        }
+        let stem = plot.stem();
+        if !is_plain(&stem) {
+            let message = format!("\"{stem}\" names a file; expected {PLAIN}");
+            return Err(document.fault(&place.key("file"), message));
+        }
+        if plots[..i].iter().any(|earlier| earlier.stem() == stem) {
+            let message =
+                format!("\"{stem}.svg\" is an earlier plot too; expected a \"file\" of its own");
+            return Err(document.fault(&place, message));
+        }
+    }
+    Ok(())
 }
 
 /// Gives a value the fields that it lacks, after its own.

@@ -168,9 +168,10 @@ impl Desk<'_> {
         let machine = &self.plan.machines[run.machine].machine;
         let (watch, index) = (Arc::clone(&self.watch), task.run);
         let on_shot = Arc::new(move || watch(Event::Shot { run: index }));
+        let point = &run.point;
         let nothing_kept = Arc::new(KeptShots::new(0));
-        let kept = if run.point.reuse_shots { &task.kept } else { &nothing_kept };
-        let run = engine::run(problem, &run.point, kept, on_shot);
-        engine::carry_out(&run, self.options.on, machine)
+        let kept = if point.reuse_shots { &task.kept } else { &nothing_kept };
+        let run = engine::run(problem, point, kept, on_shot);
+        engine::carry_out(&run, point, self.options.on, machine)
     }
 }

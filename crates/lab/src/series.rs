@@ -41,11 +41,7 @@ impl Drawing {
         let numeric = unit.is_some();
         let unit = unit.unwrap_or_default().to_owned();
         let mut drawing = Drawing { series: Vec::new(), categories: Vec::new(), unit, swept };
-        let paper = match plot.y.as_str() {
-            "speed_up" => "paper_speed_up",
-            "time_s" => "paper_time_s",
-            _ => "",
-        };
+        let paper = format!("paper_{}", plot.y);
         for row in &table.rows {
             let x = if numeric {
                 along.value(table, row)
@@ -58,7 +54,7 @@ impl Drawing {
             let name = name(table, row, besides, plot);
             let series = line(&mut drawing.series, name);
             series.simulated.extend(up.value(table, row).map(|y| (x, y)));
-            series.paper.extend(table.number(row, paper).map(|y| (x, y)));
+            series.paper.extend(table.number(row, &paper).map(|y| (x, y)));
         }
         // A logarithm has no place for zero or less.
         let [log_x, log_y] = plot.logarithmic();

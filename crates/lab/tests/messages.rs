@@ -32,8 +32,8 @@ fn experiments_are_refused_with_place_value_and_expectation() {
         (
             &format!("{{{good},\n\"processor\": 2}}"),
             "experiments/x.json:2: processor: unknown field \"processor\", did you mean \
-             \"processors\"? (there are: $schema, title, scene, machine, processors, \
-             local_environments, cut, cells, patch_size, emitter_patch_size, hemisphere, \
+             \"processors\"? (there are: $schema, title, scene, machine, network, network_tolerance, \
+             processors, local_environments, cut, cells, patch_size, emitter_patch_size, hemisphere, \
              selection, ties, stop, merge_masks, mapping, radiosity_updates, reuse_shots, seed, compare_with, \
              plots)",
         ),

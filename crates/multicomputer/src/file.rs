@@ -2,16 +2,17 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
-use std::num::NonZeroU16;
+use std::num::{NonZeroU8, NonZeroU16};
 
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
 
-use crate::sourced::{Bandwidth, Cycles, Frequency, Positive, Quantity, Sourced, Time};
+use crate::network::Rung;
+use crate::sourced::{Bandwidth, Bytes, Cycles, Frequency, Positive, Quantity, Sourced, Time};
 
-/// A distributed-memory machine: compute nodes and service nodes on a two-dimensional mesh. Every
-/// number says how it is known and where it comes from.
+/// A distributed-memory machine: compute nodes and service nodes on a mesh, a torus, a crossbar or a
+/// bus. Every number says how it is known and where it comes from.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object that describes a machine")]
 #[schemars(title = "Virtwall machine")]
@@ -21,9 +22,20 @@ pub(crate) struct MachineFile {
     pub(crate) _schema: Option<String>,
     /// What machine this is, for people.
     pub(crate) title: String,
-    /// The mesh. Compute nodes fill it row by row in the order of their ranks; service nodes stand
-    /// on the places that follow.
-    pub(crate) mesh: MeshFile,
+    /// A mesh; one of "mesh", "torus", "crossbar" and "bus" must be there. Compute nodes fill its
+    /// places row by row in the order of their ranks; service nodes stand on those that follow.
+    #[serde(default)]
+    pub(crate) mesh: Option<MeshFile>,
+    /// A mesh whose rows and columns of three places or more are closed to rings; messages take the
+    /// shorter way. Without virtual channels it can deadlock.
+    #[serde(default)]
+    pub(crate) torus: Option<MeshFile>,
+    /// A switch that joins all nodes: a message takes a link to it and a link from it.
+    #[serde(default)]
+    pub(crate) crossbar: Option<HubFile>,
+    /// A bus: all messages take one link in common, besides a link onto it and a link off it.
+    #[serde(default)]
+    pub(crate) bus: Option<HubFile>,
     /// Nodes that compute.
     pub(crate) compute_nodes: Sourced<NonZeroU16>,
     /// Nodes that collect results and control the computation.
@@ -32,9 +44,22 @@ pub(crate) struct MachineFile {
     pub(crate) processor: ProcessorFile,
     /// How messages travel.
     pub(crate) network: NetworkFile,
+    /// What has been measured on the real machine, to stand beside what is simulated.
+    #[serde(default)]
+    pub(crate) published: PublishedFile,
 }
 
-/// A two-dimensional mesh; messages go along the row first, then along the column.
+/// Published measurements of messages between two neighbours.
+#[derive(Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields, expecting = "an object of published measurements")]
+pub(crate) struct PublishedFile {
+    /// Time of the shortest message, from sender to receiver.
+    pub(crate) latency: Option<Sourced<Quantity<Time>>>,
+    /// Bytes a second of the longest messages.
+    pub(crate) bandwidth: Option<Sourced<Quantity<Bandwidth>>>,
+}
+
+/// A two-dimensional mesh or torus; messages go along the row first, then along the column.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object that describes a mesh")]
 pub(crate) struct MeshFile {
@@ -43,6 +68,14 @@ pub(crate) struct MeshFile {
     /// Rows.
     pub(crate) height: Sourced<NonZeroU16>,
     /// Time that the head of a message takes from one router to the next.
+    pub(crate) hop_time: Sourced<Quantity<Time>>,
+}
+
+/// A crossbar or a bus.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "an object that describes a crossbar or a bus")]
+pub(crate) struct HubFile {
+    /// Time that the head of a message takes over a link.
     pub(crate) hop_time: Sourced<Quantity<Time>>,
 }
 
@@ -59,14 +92,47 @@ pub(crate) struct ProcessorFile {
     pub(crate) operations: BTreeMap<String, Sourced<Quantity<Cycles>>>,
 }
 
-/// A model of the network.
+/// The network: which model of it tells when messages arrive, and what the models need to know.
 #[derive(Deserialize, JsonSchema)]
-#[serde(tag = "model", content = "parameters", rename_all = "lowercase", deny_unknown_fields)]
-pub(crate) enum NetworkFile {
-    /// LogGP with hops, without contention.
-    LogGp(LogGpFile),
+#[serde(deny_unknown_fields, expecting = "an object that describes a network")]
+pub(crate) struct NetworkFile {
+    /// The model, unless an experiment or an argument asks for another one.
+    pub(crate) model: Model,
+    /// The message layer, after LogGP. Only the model "ideal" does without.
+    #[serde(default)]
+    pub(crate) parameters: Option<LogGpFile>,
+    /// The links. The models "wormhole", "flit" and "auto" need them.
+    #[serde(default)]
+    pub(crate) links: Option<LinksFile>,
+}
+
+/// A model of the network.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Model {
     /// Messages arrive at once and cost nothing.
     Ideal,
+    /// LogGP with hops, without contention.
+    LogGp,
+    /// Worms that hold the links of their routes, message by message.
+    Wormhole,
+    /// Flits, buffers and virtual channels, cycle by cycle.
+    Flit,
+    /// The cheapest one whose answer is near enough to that of the next one.
+    Auto,
+}
+
+impl Model {
+    /// The rung of the ladder; none for "auto".
+    pub(crate) fn rung(self) -> Option<Rung> {
+        match self {
+            Model::Ideal => Some(Rung::Ideal),
+            Model::LogGp => Some(Rung::LogGp),
+            Model::Wormhole => Some(Rung::Wormhole),
+            Model::Flit => Some(Rung::Flit),
+            Model::Auto => None,
+        }
+    }
 }
 
 /// Parameters of LogGP. A message of n bytes, alone on the network, is read after
@@ -84,6 +150,21 @@ pub(crate) struct LogGpFile {
     pub(crate) gap: Sourced<Quantity<Time>>,
     /// 1/G: bytes a second at which a node injects a message.
     pub(crate) bandwidth: Sourced<Quantity<Bandwidth>>,
+}
+
+/// The links and the routers that they join.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "an object that describes links")]
+pub(crate) struct LinksFile {
+    /// Bytes a second over a link, one way, and between a node and its router; at least the
+    /// bandwidth of the message layer.
+    pub(crate) bandwidth: Sourced<Quantity<Bandwidth>>,
+    /// What crosses a link in one cycle, in whole bytes.
+    pub(crate) flit: Sourced<Quantity<Bytes>>,
+    /// Flits that a router keeps of what comes in by a virtual channel.
+    pub(crate) buffer_flits: Sourced<NonZeroU16>,
+    /// Virtual channels a link.
+    pub(crate) virtual_channels: Sourced<NonZeroU8>,
 }
 
 /// The JSON Schema of a machine file.

@@ -5,25 +5,43 @@
 //! [`Multicomputer`] is such a machine running over [`desim`], whose processes each hold a
 //! [`Node`].
 //!
-//! Contention on links would be one more [`Network`]; memory and disks would be further costs of a
-//! [`Node`].
+//! Memory and disks would be further costs of a [`Node`].
 
 mod account;
+mod agenda;
+mod auto;
+mod fault;
 mod file;
+mod kernels;
 mod machine;
-mod mesh;
 mod multicomputer;
 mod network;
 mod node;
 mod processor;
 pub mod quantity;
+mod record;
+mod replay;
 mod sourced;
+mod topology;
+mod trace;
+mod traffic;
 
 pub use account::NodeAccount;
+pub use auto::{Choice, choose};
+pub use fault::MachineFault;
 pub use file::machine_schema;
-pub use machine::{Machine, MachineError, MachineFault};
-pub use mesh::{Link, Mesh, Place, Position};
+pub use kernels::{KernelError, exchange, hot_spot, ping_pong};
+pub use machine::{Machine, MachineError, Published};
 pub use multicomputer::Multicomputer;
-pub use network::{Delivery, Ideal, LogGp, LogGpParameters, Network, NetworkModel};
+pub use network::{
+    Arrival, Channel, ChannelUse, Deadlock, Delivery, Flit, Foretold, Formula, Ideal,
+    LinkParameters, LogGp, LogGpParameters, Message, Network, NetworkParameters, Rung, Stall,
+    Waiting, Wormhole,
+};
 pub use node::{Node, Rank};
 pub use processor::Processor;
+pub use record::{Letter, Record, Recorder};
+pub use replay::{Course, ReplayDeadlock, replay};
+pub use topology::{Hop, Link, Place, Position, Shape, Topology};
+pub use trace::{Item, Trace, trace_schema};
+pub use traffic::{Load, Measured, Pattern, fluid_bound};

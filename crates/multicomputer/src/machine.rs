@@ -1,16 +1,20 @@
 //! A machine, as its file describes it, checked once at the door.
 
-use std::fmt;
-
 use thiserror::Error;
 
-use crate::file::{LogGpFile, MachineFile, NetworkFile, ProcessorFile};
-use crate::mesh::{Mesh, Place};
-use crate::network::{LogGpParameters, NetworkModel};
+use crate::fault::{MachineFault, read};
+use crate::file::{LinksFile, LogGpFile, MachineFile, NetworkFile, ProcessorFile};
+use crate::network::{LinkParameters, LogGpParameters, Network, NetworkParameters, Rung};
 use crate::processor::Processor;
+use crate::topology::{Place, Shape, Topology};
 
-/// Largest mesh, in places: beyond it a file can only be a slip.
+/// Largest network, in places: beyond it a file can only be a slip.
 const MOST_PLACES: u32 = 65_536;
+/// Longest flit, bytes: as long as a link's bandwidth can be told from a message's.
+const LONGEST_FLIT: f64 = 1e9;
+
+/// Most virtual channels a link: real routers have a handful.
+const MOST_VIRTUAL_CHANNELS: u8 = 16;
 
 /// A distributed-memory machine.
 #[derive(Clone, Debug)]
@@ -19,11 +23,24 @@ pub struct Machine {
     pub title: String,
     /// The processor of every node.
     pub processor: Processor,
-    /// How messages travel.
-    pub network: NetworkModel,
-    mesh: Mesh,
+    /// What its network needs to know on any rung.
+    pub parameters: NetworkParameters,
+    /// The rung of its network that the file chooses; none if that is left to be found out.
+    pub rung: Option<Rung>,
+    /// What has been measured on the real machine.
+    pub published: Published,
+    topology: Topology,
     compute_nodes: usize,
     service_nodes: usize,
+}
+
+/// Published measurements of messages between two neighbours.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Published {
+    /// Time of the shortest message, from sender to receiver.
+    pub latency: Option<desim::Duration>,
+    /// Bytes a second of the longest messages.
+    pub bandwidth: Option<f64>,
 }
 
 /// What cannot be meant.
@@ -45,35 +62,19 @@ pub enum MachineError {
         /// The machine.
         title: String,
     },
+    /// The machine's file does not say enough for a rung of its network.
+    #[error("the {title} has no \"network.{missing}\", which its network needs as \"{rung}\"")]
+    Rung {
+        /// The rung asked for.
+        rung: Rung,
+        /// The field that is missing.
+        missing: &'static str,
+        /// The machine.
+        title: String,
+    },
     /// No process at all.
     #[error("found 0 compute processes; expected at least 1")]
     NoProcess,
-}
-
-/// What is wrong with a machine file, and where.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct MachineFault {
-    /// The file.
-    pub file: String,
-    /// Line and column, from 1; `None` where the fault lies in several places.
-    pub line_and_column: Option<(usize, usize)>,
-    /// The way to the value, such as `processor.clock.value`; empty for the file as a whole.
-    pub place: String,
-    /// What was found and what was expected.
-    pub message: String,
-}
-
-impl fmt::Display for MachineFault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.file)?;
-        if let Some((line, column)) = self.line_and_column {
-            write!(f, ":{line}:{column}")?;
-        }
-        if !self.place.is_empty() {
-            write!(f, ": {}", self.place)?;
-        }
-        write!(f, ": {}", self.message)
-    }
 }
 
 impl Machine {
@@ -87,9 +88,27 @@ impl Machine {
         })
     }
 
-    /// The mesh on which the nodes stand.
-    pub fn mesh(&self) -> &Mesh {
-        &self.mesh
+    /// How the nodes are joined.
+    pub fn topology(&self) -> &Topology {
+        &self.topology
+    }
+
+    /// The machine's network with nothing under way, on the rung that its file chooses, or on the
+    /// lowest one with costs where the choice is left open.
+    pub fn network(&self) -> Box<dyn Network> {
+        let built = self.parameters.build(self.rung.unwrap_or(Rung::LogGp), &self.topology);
+        built.expect("a file that lacks what its rung needs was refused")
+    }
+
+    /// The machine's network with nothing under way, on a rung of the caller's choice.
+    ///
+    /// # Errors
+    /// [`MachineError::Rung`] when the machine's file does not say enough for it.
+    pub fn network_on(&self, rung: Rung) -> Result<Box<dyn Network>, MachineError> {
+        self.parameters.build(rung, &self.topology).ok_or_else(|| {
+            let missing = if self.parameters.software.is_none() { "parameters" } else { "links" };
+            MachineError::Rung { rung, missing, title: self.title.clone() }
+        })
     }
 
     /// Nodes that compute.
@@ -102,8 +121,13 @@ impl Machine {
         self.service_nodes
     }
 
+    /// Compute nodes and service nodes.
+    pub fn nodes(&self) -> usize {
+        self.compute_nodes + self.service_nodes
+    }
+
     /// Where the processes of a run stand: compute process r on place r, since compute nodes fill
-    /// the mesh row by row, and last the service process, on the place after all compute nodes.
+    /// the places row by row, and last the service process, on the place after all compute nodes.
     pub(crate) fn places(
         &self,
         compute_ranks: usize,
@@ -119,63 +143,127 @@ impl Machine {
             });
         }
         let numbers = (0..compute_ranks).chain([self.compute_nodes]);
-        Ok(numbers.filter_map(|number| self.mesh.place(number)))
+        Ok(numbers.filter_map(|number| self.topology.place(number)))
     }
 }
 
-/// The file's text as its raw structure, with serde's complaint and its place.
-fn read(text: &str) -> Result<MachineFile, MachineFault> {
-    let mut json = serde_json::Deserializer::from_str(text);
-    let file = serde_path_to_error::deserialize(&mut json).map_err(|error| {
-        let place = error.path().to_string();
-        fault(if place == "." { String::new() } else { place }, error.inner())
-    })?;
-    json.end().map_err(|error| fault(String::new(), &error))?;
-    Ok(file)
-}
-
-fn fault(place: String, error: &serde_json::Error) -> MachineFault {
-    let (line, column) = (error.line(), error.column());
-    let message = error.to_string();
-    // serde_json appends the position to its message; it is told apart here.
-    let suffix = format!(" at line {line} column {column}");
-    let message = message.strip_suffix(&suffix).unwrap_or(&message).to_owned();
-    let line_and_column = (line > 0).then_some((line, column));
-    MachineFault { file: String::new(), line_and_column, place, message }
-}
-
-/// The machine, if its nodes have room on its mesh.
+/// The machine, if its nodes have room on its network and that is fully described.
 fn validate(file: MachineFile) -> Result<Machine, MachineFault> {
-    let (width, height) = (file.mesh.width.value.get(), file.mesh.height.value.get());
-    let (compute, service) = (file.compute_nodes.value.get(), file.service_nodes.value.get());
-    let places = u32::from(width) * u32::from(height);
-    let nodes = u32::from(compute) + u32::from(service);
-    let found = format!("found {width} × {height} = {places} places");
-    let refuse = |message| {
-        let (file, place) = (String::new(), "mesh".to_owned());
-        Err(MachineFault { file, line_and_column: None, place, message })
+    let (shape, hop_time) = shape(&file)?;
+    let (title, processor) = (file.title, processor(file.processor));
+    let (rung, parameters) = network(&file.network, hop_time)?;
+    let published = Published {
+        latency: file.published.latency.map(|latency| latency.value.duration()),
+        bandwidth: file.published.bandwidth.map(|bandwidth| bandwidth.value.si),
     };
-    if places > MOST_PLACES {
-        return refuse(format!("{found}; expected at most {MOST_PLACES}"));
-    }
-    if places < nodes {
-        return refuse(format!(
-            "{found}; expected at least {nodes}, for {compute} compute nodes and {service} service \
-             nodes"
-        ));
-    }
-    let hop_time = file.mesh.hop_time.value.duration();
     Ok(Machine {
-        title: file.title,
-        processor: processor(file.processor),
-        network: match file.network {
-            NetworkFile::LogGp(parameters) => NetworkModel::LogGp(loggp(&parameters, hop_time)),
-            NetworkFile::Ideal => NetworkModel::Ideal,
-        },
-        mesh: Mesh::new(width, height),
-        compute_nodes: compute.into(),
-        service_nodes: service.into(),
+        title,
+        processor,
+        parameters,
+        rung,
+        published,
+        topology: Topology::new(shape),
+        compute_nodes: file.compute_nodes.value.get().into(),
+        service_nodes: file.service_nodes.value.get().into(),
     })
+}
+
+fn refuse<T>(place: &str, message: impl Into<String>) -> Result<T, MachineFault> {
+    Err(MachineFault::at(place, message))
+}
+
+/// How the nodes are joined, and the time of a hop.
+fn shape(file: &MachineFile) -> Result<(Shape, desim::Duration), MachineFault> {
+    let (compute, service) = (file.compute_nodes.value.get(), file.service_nodes.value.get());
+    let nodes = u32::from(compute) + u32::from(service);
+    let mut found = Vec::new();
+    for (name, grid) in [("mesh", &file.mesh), ("torus", &file.torus)] {
+        let Some(grid) = grid else { continue };
+        let (width, height) = (grid.width.value.get(), grid.height.value.get());
+        let places = u32::from(width) * u32::from(height);
+        let text = format!("found {width} × {height} = {places} places");
+        if places > MOST_PLACES {
+            return refuse(name, format!("{text}; expected at most {MOST_PLACES}"));
+        }
+        if places < nodes {
+            let what = format!("for {compute} compute nodes and {service} service nodes");
+            return refuse(name, format!("{text}; expected at least {nodes}, {what}"));
+        }
+        let shape = match name {
+            "mesh" => Shape::Mesh { width, height },
+            _ => Shape::Torus { width, height },
+        };
+        found.push((name, shape, grid.hop_time.value.duration()));
+    }
+    let hubs = [
+        ("crossbar", &file.crossbar, Shape::Crossbar { places: nodes }),
+        ("bus", &file.bus, Shape::Bus { places: nodes }),
+    ];
+    for (name, hub, shape) in hubs {
+        let hub = hub.as_ref();
+        found.extend(hub.map(|hub| (name, shape, hub.hop_time.value.duration())));
+    }
+    match found[..] {
+        [(_, shape, hop_time)] => Ok((shape, hop_time)),
+        [] => refuse("", "missing field `mesh`, `torus`, `crossbar` or `bus`"),
+        [_, (name, ..), ..] => {
+            refuse(name, format!("found besides \"{}\"; expected one of them", found[0].0))
+        }
+    }
+}
+
+/// The chosen rung of the network, with all that it needs.
+fn network(
+    file: &NetworkFile,
+    hop_time: desim::Duration,
+) -> Result<(Option<Rung>, NetworkParameters), MachineFault> {
+    let software = file.parameters.as_ref().map(|parameters| loggp(parameters, hop_time));
+    let links = match (&file.links, &software) {
+        (Some(file), Some(software)) => Some(links(file, software)?),
+        (Some(_), None) => return refuse("network", "missing field `parameters`"),
+        (None, _) => None,
+    };
+    let rung = file.model.rung();
+    if rung != Some(Rung::Ideal) && software.is_none() {
+        return refuse("network", "missing field `parameters`");
+    }
+    if rung.is_none_or(Rung::needs_links) && links.is_none() {
+        return refuse("network", "missing field `links`");
+    }
+    Ok((rung, NetworkParameters { software, links }))
+}
+
+fn links(file: &LinksFile, software: &LogGpParameters) -> Result<LinkParameters, MachineFault> {
+    let (bandwidth, flit) = (file.bandwidth.value.si, file.flit.value.si);
+    if bandwidth < software.bandwidth {
+        let (found, least) = (bandwidth / 1e6, software.bandwidth / 1e6);
+        let message =
+            format!("found {found} MB/s; expected at least {least} MB/s, the bandwidth of");
+        return refuse("network.links.bandwidth.value", message + " the message layer");
+    }
+    if !(1.0..=LONGEST_FLIT).contains(&flit) || flit.fract() != 0.0 {
+        let message = format!("found {flit} B; expected a whole number of bytes, at least 1");
+        return refuse("network.links.flit.value", message);
+    }
+    let virtual_channels = file.virtual_channels.value.get();
+    if virtual_channels > MOST_VIRTUAL_CHANNELS {
+        let message = format!("found {virtual_channels}; expected 1 to {MOST_VIRTUAL_CHANNELS}");
+        return refuse("network.links.virtual_channels.value", message);
+    }
+    let links = LinkParameters {
+        bandwidth,
+        flit_bytes: flit as u64,
+        buffer_flits: file.buffer_flits.value.get().into(),
+        virtual_channels: virtual_channels.into(),
+    };
+    // Room in a buffer counts again a cycle after a flit has crossed the next hop.
+    let least = links.cycles(software.hop_time) + 1;
+    if u64::from(links.buffer_flits) < least {
+        let found = format!("found {}; expected at least {least}", links.buffer_flits);
+        let message = found + ", as many as cross a link during a hop";
+        return refuse("network.links.buffer_flits.value", message);
+    }
+    Ok(links)
 }
 
 fn processor(file: ProcessorFile) -> Processor {

@@ -1,14 +1,14 @@
 //! A machine that runs: its nodes, their mail, and the network between them, over [`desim`].
 
 use std::cell::RefCell;
-use std::rc::Rc;
+use std::rc::{Rc, Weak};
 
-use desim::Handle;
+use desim::{Alarm, Handle};
 
 use crate::account::NodeAccount;
 use crate::machine::{Machine, MachineError};
-use crate::network::Network;
-use crate::node::{Node, NodeState, Rank, Shared};
+use crate::network::{ChannelUse, Deadlock, Network};
+use crate::node::{Node, NodeState, Rank, Shared, Wires};
 
 /// A machine on which processes run that send each other messages of type `M`. Clones are the same
 /// machine.
@@ -32,8 +32,7 @@ impl<M: 'static> Multicomputer<M> {
         machine: &Machine,
         compute_ranks: usize,
     ) -> Result<Multicomputer<M>, MachineError> {
-        let network = machine.network.build(machine.mesh());
-        Multicomputer::with_network(handle, machine, compute_ranks, network)
+        Multicomputer::with_network(handle, machine, compute_ranks, machine.network())
     }
 
     /// Like [`Multicomputer::new`], with a network other than the machine's own.
@@ -51,8 +50,13 @@ impl<M: 'static> Multicomputer<M> {
             .enumerate()
             .map(|(rank, place)| NodeState::new(handle, rank, place))
             .collect();
-        let network = RefCell::new(network);
-        Ok(Multicomputer(Rc::new(Shared { handle: handle.clone(), network, nodes })))
+        Ok(Multicomputer(Rc::new_cyclic(|shared: &Weak<Shared<M>>| {
+            let shared = shared.clone();
+            let news = Alarm::new(handle, move || {
+                shared.upgrade().iter().for_each(|shared| shared.advance());
+            });
+            Shared { handle: handle.clone(), wires: RefCell::new(Wires::new(network)), news, nodes }
+        })))
     }
 
     /// The node of a process, to be moved into it.
@@ -69,5 +73,15 @@ impl<M: 'static> Multicomputer<M> {
     pub fn accounts(&self) -> Vec<NodeAccount> {
         let now = self.0.handle.now();
         self.0.nodes.iter().map(|node| node.ledger.borrow_mut().account(now)).collect()
+    }
+
+    /// What each channel of the network has done until now.
+    pub fn channel_use(&self) -> Vec<ChannelUse> {
+        self.0.wires.borrow().network.channel_use()
+    }
+
+    /// The deadlock that halted the simulation, if one did.
+    pub fn deadlock(&self) -> Option<Deadlock> {
+        self.0.wires.borrow().deadlock.clone()
     }
 }

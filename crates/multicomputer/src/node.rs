@@ -1,14 +1,15 @@
 //! A node as the process that runs on it sees it: compute, send, receive, wait.
 
 use std::cell::RefCell;
+use std::collections::VecDeque;
 use std::mem;
 use std::rc::Rc;
 
-use desim::{Duration, Handle, Signal, Time};
+use desim::{Alarm, Duration, Handle, Signal, Time};
 
 use crate::account::{Activity, Ledger};
-use crate::mesh::Place;
-use crate::network::Network;
+use crate::network::{Arrival, Deadlock, Message, Network};
+use crate::topology::Place;
 
 /// Number of a process, from 0.
 pub type Rank = usize;
@@ -22,8 +23,73 @@ pub struct Node<M> {
 /// What all nodes of a multicomputer share.
 pub(crate) struct Shared<M> {
     pub(crate) handle: Handle,
-    pub(crate) network: RefCell<Box<dyn Network>>,
+    pub(crate) wires: RefCell<Wires<M>>,
+    /// Goes off when the network has something to do.
+    pub(crate) news: Alarm,
     pub(crate) nodes: Vec<NodeState<M>>,
+}
+
+/// The network, and what is under way on it.
+pub(crate) struct Wires<M> {
+    pub(crate) network: Box<dyn Network>,
+    /// Messages under way with the ranks they go to, and some that have arrived: in the order in
+    /// which they were sent, so that the network may know each by a number of its own.
+    under_way: VecDeque<Option<(Rank, M)>>,
+    /// The number of the first of them.
+    first: u64,
+    arrived: Vec<Arrival>,
+    /// The messages that will never arrive.
+    pub(crate) deadlock: Option<Deadlock>,
+}
+
+impl<M> Wires<M> {
+    pub(crate) fn new(network: Box<dyn Network>) -> Wires<M> {
+        let (under_way, arrived) = (VecDeque::new(), Vec::new());
+        Wires { network, under_way, first: 0, arrived, deadlock: None }
+    }
+
+    /// Sends a message; returns when the sending processor may go on.
+    fn send(&mut self, now: Time, ends: (Place, Place), bytes: u64, letter: (Rank, M)) -> Time {
+        let id = self.first + self.under_way.len() as u64;
+        self.under_way.push_back(Some(letter));
+        let (from, to) = ends;
+        self.network.send(now, Message { id, from, to, bytes })
+    }
+
+    /// Hands over a message that has arrived.
+    fn take(&mut self, id: u64) -> Option<(Rank, M)> {
+        let letter = self.under_way.get_mut(id.checked_sub(self.first)? as usize)?.take();
+        while let Some(None) = self.under_way.front() {
+            self.under_way.pop_front();
+            self.first += 1;
+        }
+        letter
+    }
+}
+
+impl<M> Shared<M> {
+    /// The network goes on until now; what has arrived is put into mailboxes.
+    pub(crate) fn advance(&self) {
+        let mut wires = self.wires.borrow_mut();
+        let mut arrived = mem::take(&mut wires.arrived);
+        if let Err(deadlock) = wires.network.advance(self.handle.now(), &mut arrived) {
+            self.handle.halt(deadlock.to_string());
+            wires.deadlock = Some(deadlock);
+        }
+        for arrival in arrived.drain(..) {
+            if let Some((to, message)) = wires.take(arrival.message.id) {
+                self.nodes[to].arrive(message);
+            }
+        }
+        wires.arrived = arrived;
+        self.expect_news(&wires);
+    }
+
+    fn expect_news(&self, wires: &Wires<M>) {
+        if let Some(time) = wires.network.next_event() {
+            self.news.set(time);
+        }
+    }
 }
 
 /// What a multicomputer keeps for a node.
@@ -79,14 +145,16 @@ impl<M: 'static> Node<M> {
     /// # Panics
     /// When no process has the rank `to`.
     pub async fn send(&self, to: Rank, bytes: u64, message: M) {
-        let shared = self.shared.clone();
-        let (from, receiver) = (self.state(), &shared.nodes[to]);
-        let delivery =
-            shared.network.borrow_mut().deliver(self.now(), from.place, receiver.place, bytes);
+        let (from, receiver) = (self.state(), &self.shared.nodes[to]);
+        let sender_free = {
+            let mut wires = self.shared.wires.borrow_mut();
+            let ends = (from.place, receiver.place);
+            let sender_free = wires.send(self.now(), ends, bytes, (to, message));
+            self.shared.expect_news(&wires);
+            sender_free
+        };
         from.ledger.borrow_mut().sent(bytes);
-        let post = shared.clone();
-        shared.handle.at(delivery.arrives, move || post.nodes[to].arrive(message));
-        self.busy(Activity::Send, delivery.sender_free).await;
+        self.busy(Activity::Send, sender_free).await;
     }
 
     /// Takes what has arrived, in order of arrival. The processor is busy for the receive overhead
@@ -96,7 +164,7 @@ impl<M: 'static> Node<M> {
         let messages = mem::take(&mut *self.state().mailbox.borrow_mut());
         if !messages.is_empty() {
             let count = messages.len() as u64;
-            let overhead = self.shared.network.borrow().receive_overhead();
+            let overhead = self.shared.wires.borrow().network.receive_overhead();
             self.state().ledger.borrow_mut().received(count);
             self.busy(Activity::Receive, self.now() + overhead * count).await;
         }

@@ -65,7 +65,7 @@ macro_rules! measures {
         }
     )* };
 }
-measures! { Time Frequency Bandwidth Cycles }
+measures! { Time Frequency Bandwidth Bytes Cycles }
 
 /// A text such as "50 MHz", read; the value is in the measure's SI unit.
 pub(crate) struct Quantity<M> {

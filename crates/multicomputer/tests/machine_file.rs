@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-use multicomputer::{Machine, MachineError, NetworkModel, machine_schema};
+use multicomputer::{Machine, MachineError, Rung, Shape, machine_schema};
 use serde_json::{Value, json};
 
 fn machines(name: &str) -> PathBuf {
@@ -26,7 +26,8 @@ fn the_paragon() {
     assert_eq!(machine.processor.clock, 50e6);
     assert_eq!(machine.processor.price("cell_step"), Some(64.0 * machine.processor.scale / 50e6));
     assert_eq!(machine.processor.price("daydream"), None);
-    let NetworkModel::LogGp(network) = &machine.network else { panic!("LogGP") };
+    assert_eq!(machine.rung, Some(Rung::LogGp));
+    let network = machine.parameters.software.unwrap();
     // The published latency is what an empty message takes.
     let latency = network.send_overhead + network.latency + network.receive_overhead;
     assert_eq!(latency.to_string(), "42 µs");
@@ -36,7 +37,41 @@ fn the_paragon() {
 fn an_ideal_network_needs_no_parameters() {
     let mut file = paragon();
     file["network"] = json!({ "model": "ideal" });
-    assert_eq!(read(&file).unwrap().network, NetworkModel::Ideal);
+    assert_eq!(read(&file).unwrap().rung, Some(Rung::Ideal));
+}
+
+#[test]
+fn a_rung_that_the_file_says_too_little_for_is_refused() {
+    let mut file = paragon();
+    file["network"] = json!({ "model": "ideal" });
+    let message =
+        |file: &Value, rung| read(file).unwrap().network_on(rung).err().unwrap().to_string();
+    let title = "Intel Paragon XP/S, 56 compute nodes and 2 service nodes";
+    assert_eq!(
+        message(&file, Rung::LogGp),
+        format!(r#"the {title} has no "network.parameters", which its network needs as "loggp""#)
+    );
+    assert_eq!(
+        message(&without("/network", "links"), Rung::Flit),
+        format!(r#"the {title} has no "network.links", which its network needs as "flit""#)
+    );
+}
+
+#[test]
+fn nodes_may_be_joined_in_other_ways() {
+    for (kind, shape) in [
+        ("torus", Shape::Torus { width: 4, height: 16 }),
+        ("crossbar", Shape::Crossbar { places: 58 }),
+        ("bus", Shape::Bus { places: 58 }),
+    ] {
+        let mut file = paragon();
+        let mut mesh = file.as_object_mut().unwrap().shift_remove("mesh").unwrap();
+        if kind != "torus" {
+            mesh = json!({ "hop_time": mesh["hop_time"] });
+        }
+        file[kind] = mesh;
+        assert_eq!(read(&file).unwrap().topology().shape(), shape);
+    }
 }
 
 /// The shipped file with the value at a JSON pointer replaced.
@@ -90,7 +125,7 @@ fn faults_name_place_value_and_what_was_expected() {
         ),
         (
             with("/network/model", json!("pigeon")),
-            "m.json: network.model: unknown variant `pigeon`, expected `loggp` or `ideal`",
+            "m.json: network.model: unknown variant `pigeon`, expected one of `ideal`, `loggp`, `wormhole`, `flit`, `auto`",
         ),
         (
             with("/mesh/width/provenance", json!("guessed")),
@@ -117,6 +152,40 @@ fn faults_name_place_value_and_what_was_expected() {
             "m.json: mesh: found 4 × 65535 = 262140 places; expected at most 65536",
         ),
         (without("/mesh", "hop_time"), "m.json: mesh: missing field `hop_time`"),
+        (without("", "mesh"), "m.json: missing field `mesh`, `torus`, `crossbar` or `bus`"),
+        (
+            {
+                let mut file = paragon();
+                file["bus"] = json!({ "hop_time": file["mesh"]["hop_time"] });
+                file
+            },
+            r#"m.json: bus: found besides "mesh"; expected one of them"#,
+        ),
+        (without("/network", "parameters"), "m.json: network: missing field `parameters`"),
+        (
+            {
+                let mut file = without("/network", "links");
+                file["network"]["model"] = json!("auto");
+                file
+            },
+            "m.json: network: missing field `links`",
+        ),
+        (
+            with("/network/links/bandwidth/value", json!("10 MB/s")),
+            "m.json: network.links.bandwidth.value: found 10 MB/s; expected at least 65 MB/s, the bandwidth of the message layer",
+        ),
+        (
+            with("/network/links/virtual_channels/value", json!(17)),
+            "m.json: network.links.virtual_channels.value: found 17; expected 1 to 16",
+        ),
+        (
+            with("/network/links/flit/value", json!("0.5 B")),
+            "m.json: network.links.flit.value: found 0.5 B; expected a whole number of bytes, at least 1",
+        ),
+        (
+            with("/network/links/buffer_flits/value", json!(3)),
+            "m.json: network.links.buffer_flits.value: found 3; expected at least 4, as many as cross a link during a hop",
+        ),
         (
             with("/processor/clock", json!({ "value": "50 MHz", "provenanse": "published" })),
             "m.json: processor.clock.provenanse: unknown field `provenanse`, expected one of `value`, `provenance`, `source`",
@@ -140,7 +209,7 @@ fn faults_of_the_text_name_line_and_column() {
     };
     assert_eq!(message(""), "m.json:1:0: EOF while parsing a value");
     assert_eq!(message("{\n  \"title\": }"), "m.json:2:12: title: expected value");
-    assert_eq!(message(&format!("{text}}}")), "m.json:126:1: trailing characters");
+    assert_eq!(message(&format!("{text}}}")), "m.json:160:1: trailing characters");
     assert_eq!(
         message(&text.replace("\"50 MHz\"", "\"50 m\"")),
         "m.json:33:21: processor.clock.value: found \"50 m\" with the unit \"m\"; \

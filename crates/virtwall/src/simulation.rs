@@ -72,7 +72,7 @@ impl Process for SimulatedProcess {
 
 /// Run on a simulated machine.
 pub fn simulate(run: &Run, machine: &Machine) -> Result<Outcome, RunError> {
-    simulate_over(run, machine, machine.network.build(machine.mesh()))
+    simulate_over(run, machine, machine.network())
 }
 
 /// Run on a simulated machine with another network than its own.

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use common::{grey, paragon, problem, rules, same, scene, sides, two_rooms_cut};
 use desim::{Duration, Time};
-use multicomputer::{Delivery, Network, Place};
+use multicomputer::{Delivery, Foretold, Formula, Message};
 use virtwall::{
     Ending, KeptShots, Outcome, Problem, Rules, Run, RunError, run_on_threads, simulate,
     simulate_over,
@@ -99,10 +99,10 @@ fn the_service_node_stops_selection() {
 /// A network with a lane of its own for short messages: long ones take ten seconds.
 struct SlowMasks;
 
-impl Network for SlowMasks {
-    fn deliver(&mut self, now: Time, _: Place, _: Place, bytes: u64) -> Delivery {
-        let span = Duration::from_seconds_f64(if bytes > 100 { 10.0 } else { 1e-6 });
-        Delivery { sender_free: now, arrives: now + span }
+impl Formula for SlowMasks {
+    fn deliver(&mut self, now: Time, message: &Message) -> Delivery {
+        let span = Duration::from_seconds_f64(if message.bytes > 100 { 10.0 } else { 1e-6 });
+        Delivery { sender_free: now, arrives: now + span, stall: None }
     }
 
     fn receive_overhead(&self) -> Duration {
@@ -116,7 +116,7 @@ impl Network for SlowMasks {
 fn a_premature_end_is_told() {
     let problem = two_rooms_cut([4, 2, 1]);
     let run = run(&problem, 8, rules());
-    let outcome = simulate_over(&run, &paragon(), Box::new(SlowMasks)).unwrap();
+    let outcome = simulate_over(&run, &paragon(), Box::new(Foretold::new(SlowMasks))).unwrap();
     let Ending::TooEarly { lost } = outcome.ending else { panic!("{:?}", outcome.ending) };
     assert!(lost > 0.0 && lost < 1.0, "{lost}");
     let in_transit = outcome.energy.in_transit.element_sum();

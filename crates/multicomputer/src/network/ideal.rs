@@ -2,16 +2,16 @@
 
 use desim::{Duration, Time};
 
-use super::delivery::{Delivery, Network};
-use crate::mesh::Place;
+use super::delivery::Message;
+use super::formula::{Delivery, Formula};
 
 /// Messages arrive at once and cost nothing.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Ideal;
 
-impl Network for Ideal {
-    fn deliver(&mut self, now: Time, _: Place, _: Place, _: u64) -> Delivery {
-        Delivery { sender_free: now, arrives: now }
+impl Formula for Ideal {
+    fn deliver(&mut self, now: Time, _: &Message) -> Delivery {
+        Delivery { sender_free: now, arrives: now, stall: None }
     }
 
     fn receive_overhead(&self) -> Duration {

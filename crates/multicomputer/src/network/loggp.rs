@@ -14,8 +14,10 @@
 
 use desim::{Duration, Time};
 
-use super::delivery::{Delivery, Network};
-use crate::mesh::{Mesh, Place};
+use super::channel::Channel;
+use super::delivery::{Message, Stall};
+use super::formula::{Delivery, Formula};
+use crate::topology::Topology;
 
 /// Parameters of the model.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,33 +36,64 @@ pub struct LogGpParameters {
     pub bandwidth: f64,
 }
 
-/// A network after LogGP.
-pub struct LogGp {
-    parameters: LogGpParameters,
-    mesh: Mesh,
-    /// When each place's port can begin to inject again.
-    port_free: Vec<Time>,
-}
+impl LogGpParameters {
+    /// G n: time in which a node's port takes in a message.
+    pub(crate) fn injection(&self, bytes: u64) -> Duration {
+        Duration::from_seconds_f64(bytes as f64 / self.bandwidth)
+    }
 
-impl LogGp {
-    /// A network with nothing under way.
-    pub fn new(parameters: LogGpParameters, mesh: &Mesh) -> LogGp {
-        let port_free = vec![Time::ZERO; mesh.graph().node_count()];
-        LogGp { parameters, mesh: mesh.clone(), port_free }
+    /// A message layer that costs nothing, over links of this bandwidth: the bare network.
+    pub fn bare(hop_time: Duration, bandwidth: f64) -> LogGpParameters {
+        let (send_overhead, latency) = (Duration::ZERO, Duration::ZERO);
+        let (receive_overhead, gap) = (Duration::ZERO, Duration::ZERO);
+        LogGpParameters { send_overhead, latency, hop_time, receive_overhead, gap, bandwidth }
+    }
+
+    /// The closed formula: from the send of a message of `bytes`, alone on the network, until it has
+    /// been read `hops` links away.
+    pub fn one_way(&self, bytes: u64, hops: u32) -> Duration {
+        let way = self.latency + self.hop_time * u64::from(hops);
+        self.send_overhead + self.injection(bytes) + way + self.receive_overhead
     }
 }
 
-impl Network for LogGp {
-    fn deliver(&mut self, now: Time, from: Place, to: Place, bytes: u64) -> Delivery {
-        let LogGpParameters { send_overhead, latency, hop_time, gap, bandwidth, .. } =
-            self.parameters;
-        let sender_free = now + send_overhead;
-        let port_free = &mut self.port_free[from.index()];
-        let injected =
-            sender_free.max(*port_free) + Duration::from_seconds_f64(bytes as f64 / bandwidth);
-        *port_free = injected + gap;
-        let hops = u64::from(self.mesh.hops(from, to));
-        Delivery { sender_free, arrives: injected + latency + hop_time * hops }
+/// LogGP on a topology.
+pub struct LogGp {
+    parameters: LogGpParameters,
+    topology: Topology,
+    ports: Vec<Port>,
+}
+
+/// A node's port.
+#[derive(Clone, Copy, Default)]
+struct Port {
+    /// When it can begin to inject again.
+    free: Time,
+    /// The message injected last.
+    last: u64,
+}
+
+impl LogGp {
+    /// The model with nothing under way.
+    pub fn new(parameters: LogGpParameters, topology: &Topology) -> LogGp {
+        let ports = vec![Port::default(); topology.places()];
+        LogGp { parameters, topology: topology.clone(), ports }
+    }
+}
+
+impl Formula for LogGp {
+    fn deliver(&mut self, now: Time, message: &Message) -> Delivery {
+        let Message { id, from, to, bytes } = *message;
+        let port = &mut self.ports[from.index()];
+        let sender_free = now + self.parameters.send_overhead;
+        let wait = port.free - sender_free;
+        let injected = sender_free + wait + self.parameters.injection(bytes);
+        let channel = Channel::Injection(from);
+        let stall = (wait > Duration::ZERO).then_some(Stall { channel, by: port.last, span: wait });
+        *port = Port { free: injected + self.parameters.gap, last: id };
+        let hops = u64::from(self.topology.hops(from, to));
+        let arrives = injected + self.parameters.latency + self.parameters.hop_time * hops;
+        Delivery { sender_free, arrives, stall }
     }
 
     fn receive_overhead(&self) -> Duration {

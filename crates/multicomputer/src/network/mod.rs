@@ -1,14 +1,28 @@
-//! The network: when a message arrives and what it costs the processors at both ends.
+//! The network: when a message arrives, what it costs the processors at both ends, and who holds up
+//! whom on the way.
 //!
-//! A ladder of models behind one trait. The first rungs know no contention; a rung that does would
-//! keep the state of [`crate::Mesh`]'s links between deliveries.
+//! A ladder of models behind one trait, [`Network`]; [`Rung`] lists them.
 
+mod channel;
+mod deadlock;
 mod delivery;
+mod flit;
+mod formula;
 mod ideal;
+mod links;
 mod loggp;
-mod model;
+mod routers;
+mod rung;
+mod tenants;
+mod wormhole;
 
-pub use delivery::{Delivery, Network};
+pub use channel::Channel;
+pub use deadlock::{Deadlock, Waiting};
+pub use delivery::{Arrival, ChannelUse, Message, Network, Stall};
+pub use flit::Flit;
+pub use formula::{Delivery, Foretold, Formula};
 pub use ideal::Ideal;
+pub use links::LinkParameters;
 pub use loggp::{LogGp, LogGpParameters};
-pub use model::NetworkModel;
+pub use rung::{NetworkParameters, Rung};
+pub use wormhole::Wormhole;

@@ -1,0 +1,113 @@
+//! Which model of the network a run is simulated on, and what it tells of the network.
+
+use multicomputer::{Choice, Machine, MachineError, Record, Recorder, Rung};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use virtwall::{Outcome, Run, RunError};
+
+use crate::experiment::Experiment;
+
+/// How far "auto" may be from the next finer model, unless the experiment says.
+const TOLERANCE: f64 = 0.01;
+
+/// A model of the network. Each tells more of what happens than the one before, and costs more of the
+/// host's time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum NetworkChoice {
+    /// Messages arrive at once and cost nothing.
+    Ideal,
+    /// LogGP with hops, without contention.
+    LogGp,
+    /// Worms that hold the links of their routes, message by message.
+    Wormhole,
+    /// Flits, buffers and virtual channels, cycle by cycle: slow.
+    Flit,
+    /// The cheapest of them whose time differs little from the next one's.
+    Auto,
+}
+
+impl NetworkChoice {
+    /// The rung of the ladder; none if that is to be found out.
+    fn rung(self) -> Option<Rung> {
+        match self {
+            NetworkChoice::Ideal => Some(Rung::Ideal),
+            NetworkChoice::LogGp => Some(Rung::LogGp),
+            NetworkChoice::Wormhole => Some(Rung::Wormhole),
+            NetworkChoice::Flit => Some(Rung::Flit),
+            NetworkChoice::Auto => None,
+        }
+    }
+}
+
+/// What a run tells of its network, where an experiment asks for a model.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NetworkFigures {
+    /// The model used.
+    pub rung: String,
+    /// Why, if it was not the experiment that said so.
+    pub why: String,
+    /// The part of the time in which the link that was used most carried bytes.
+    pub busiest_link: Option<f64>,
+    /// How long messages held each other up, all added, seconds.
+    pub blocked_s: f64,
+}
+
+/// Makes sure that a machine's file says enough for the model that an experiment asks for.
+///
+/// # Errors
+/// What is missing.
+pub fn check(machine: &Machine, choice: Option<NetworkChoice>) -> Result<(), MachineError> {
+    match choice.and_then(NetworkChoice::rung) {
+        Some(rung) => machine.network_on(rung).map(|_| ()),
+        None => Ok(()),
+    }
+}
+
+/// Whether results tell of the network: an experiment, or a machine's file, that leaves the model open
+/// wants to know what was chosen.
+pub fn tells(machine: &Machine, choice: Option<NetworkChoice>) -> bool {
+    choice.is_some() || machine.rung.is_none()
+}
+
+/// Simulates a run on the model that an experiment asks for, or else the machine's file.
+///
+/// # Errors
+/// Why the run did not end.
+pub fn simulate(
+    run: &Run,
+    machine: &Machine,
+    point: &Experiment,
+) -> Result<(Outcome, Option<NetworkFigures>), RunError> {
+    if !tells(machine, point.network) {
+        return Ok((virtwall::simulate(run, machine)?, None));
+    }
+    let over = |network| {
+        let outcome = virtwall::simulate_over(run, machine, network)?;
+        Ok::<_, RunError>((outcome.time, outcome))
+    };
+    let chosen = match point.network.map_or(machine.rung, NetworkChoice::rung) {
+        None => {
+            let tolerance = point.network_tolerance.as_ref().map_or(TOLERANCE, |t| t.value());
+            multicomputer::choose(machine, tolerance, over)?
+        }
+        Some(rung) => {
+            let (network, record) = Recorder::new(machine.network_on(rung)?);
+            let (time, answer) = over(Box::new(network))?;
+            Choice { rung, answer, time, record: record.take(), why: String::new() }
+        }
+    };
+    let figures = figures(machine, &chosen);
+    Ok((chosen.answer, Some(figures)))
+}
+
+fn figures(machine: &Machine, chosen: &Choice<Outcome>) -> NetworkFigures {
+    let record: &Record = &chosen.record;
+    let links = machine.parameters.links.as_ref();
+    NetworkFigures {
+        rung: chosen.rung.to_string(),
+        why: chosen.why.clone(),
+        busiest_link: links.map(|l| record.busiest_link(machine.topology(), l, chosen.time)),
+        blocked_s: record.blocked().as_seconds_f64(),
+    }
+}

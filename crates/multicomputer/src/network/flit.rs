@@ -1,0 +1,189 @@
+//! Wormhole routing, flit by flit and cycle by cycle: slow and obvious, the oracle of the other rungs.
+//!
+//! A router keeps what comes in by each virtual channel in a buffer of its own. In every cycle
+//! 1. each node's port puts a flit of the message that it sends into its router, if there is room;
+//! 2. each head at the front of a buffer gets a virtual channel of the channel that its route takes
+//!    next, if one is free: first come, first served, and the lower number where two came at once;
+//! 3. each channel takes one flit on, and each channel's buffers give one away: of those that have
+//!    room ahead, the one that was longest not served. The flit can go on from the next buffer
+//!    `hop_time` later, rounded down to cycles, at least one; what was rounded off is added when the
+//!    message arrives. A node takes in a flit a cycle.
+//!
+//! Choice C21: a Paragon's router is unpublished in such detail; this is the plainest one that has
+//! all of the mechanisms.
+//!
+//! A virtual channel is free again when the tail has left by it, and room in a buffer counts one cycle
+//! after the flit has gone.
+
+use std::collections::VecDeque;
+
+use desim::{Duration, Time};
+
+use super::channel::Channel;
+use super::deadlock::Deadlock;
+use super::delivery::{Arrival, ChannelUse, Message, Network, Stall};
+use super::links::LinkParameters;
+use super::loggp::LogGpParameters;
+use super::routers::Routers;
+use crate::agenda::Agenda;
+use crate::topology::Topology;
+
+/// A network of routers, with a port for every node.
+pub struct Flit {
+    software: LogGpParameters,
+    links: LinkParameters,
+    routers: Routers,
+    /// Number of the next cycle.
+    next: u64,
+    ports: Vec<Port>,
+    /// Messages that their senders are through with, when they come to the port.
+    sent: Agenda<u32>,
+    arrivals: Agenda<u32>,
+}
+
+/// A node's port.
+#[derive(Default)]
+struct Port {
+    /// Those that wait, since when.
+    queue: VecDeque<(u32, Time)>,
+    sending: Option<Sending>,
+    /// When it can turn to the next message.
+    free: Time,
+    /// The last message.
+    last: u64,
+}
+
+/// A message that a port puts into the network.
+#[derive(Clone, Copy)]
+struct Sending {
+    worm: u32,
+    flits: u64,
+    /// Since when.
+    since: Time,
+    /// The cycle of the first flit at the earliest.
+    from: u64,
+    /// Flits that are in the network.
+    gone: u64,
+}
+
+impl Flit {
+    /// A network with nothing under way.
+    pub fn new(software: LogGpParameters, links: LinkParameters, topology: &Topology) -> Flit {
+        Flit {
+            routers: Routers::new(links.clone(), software.hop_time, topology),
+            software,
+            links,
+            next: 0,
+            ports: (0..topology.places()).map(|_| Port::default()).collect(),
+            sent: Agenda::default(),
+            arrivals: Agenda::default(),
+        }
+    }
+
+    /// A port that sends nothing turns to the next message that waits for it.
+    fn turn_port(&mut self, place: usize) {
+        let port = &mut self.ports[place];
+        if port.sending.is_some() {
+            return;
+        }
+        let Some((number, asked)) = port.queue.pop_front() else { return };
+        let worm = self.routers.worm(number);
+        let (message, flits) = (worm.message, worm.flits);
+        let since = asked.max(port.free);
+        if since > asked {
+            let channel = Channel::Injection(message.from);
+            worm.stalls.push(Stall { channel, by: port.last, span: since - asked });
+        }
+        port.last = message.id;
+        let gathered = since + self.links.gathering(&self.software, message.bytes);
+        let from = self.routers.cycle_from(gathered);
+        port.sending = Some(Sending { worm: number, flits, since, from, gone: 0 });
+    }
+
+    /// The next cycle in which something can move; none if nothing is in the network.
+    fn next_cycle(&self) -> Option<u64> {
+        if !self.routers.are_empty() {
+            return Some(self.next);
+        }
+        let starts = self.ports.iter().filter_map(|port| port.sending.map(|s| s.from));
+        starts.min().map(|from| from.max(self.next))
+    }
+
+    /// A cycle. Says whether anything moved, or is on its way through a router.
+    fn step(&mut self, now: u64) -> bool {
+        self.next = now.saturating_add(1);
+        let mut alive = false;
+        for place in 0..self.ports.len() {
+            alive |= self.inject(place, now);
+        }
+        let step = self.routers.step(now);
+        let rest = self.routers.rest(self.software.hop_time);
+        for number in step.out {
+            let way = rest * self.routers.worm(number).hops() + self.software.latency;
+            self.arrivals.enter(self.routers.time(now.saturating_add(1)) + way, number);
+        }
+        alive || step.alive
+    }
+
+    /// A port puts a flit into its router, if it can; says whether it did.
+    fn inject(&mut self, place: usize, now: u64) -> bool {
+        let Some(sending) = &mut self.ports[place].sending else { return false };
+        let Sending { worm, flits, since, from, gone } = *sending;
+        if from > now || !self.routers.inject(worm, gone, now) {
+            return false;
+        }
+        sending.gone += 1;
+        if gone + 1 == flits {
+            let end = self.routers.time(now.saturating_add(1));
+            self.routers.injected(worm, end - since);
+            self.ports[place].free = end + self.software.gap;
+            self.ports[place].sending = None;
+            self.turn_port(place);
+        }
+        true
+    }
+}
+
+impl Network for Flit {
+    fn send(&mut self, now: Time, message: Message) -> Time {
+        let sender_free = now + self.software.send_overhead;
+        let worm = self.routers.add(message);
+        self.sent.enter(sender_free, worm);
+        sender_free
+    }
+
+    fn receive_overhead(&self) -> Duration {
+        self.software.receive_overhead
+    }
+
+    fn next_event(&self) -> Option<Time> {
+        let cycle = self.next_cycle().map(|cycle| self.routers.time(cycle));
+        [self.sent.next_time(), cycle, self.arrivals.next_time()].into_iter().flatten().min()
+    }
+
+    fn advance(&mut self, now: Time, arrived: &mut Vec<Arrival>) -> Result<(), Deadlock> {
+        while let Some(time) = self.next_event().filter(|&time| time <= now) {
+            while let Some((at, number)) = self.sent.take_due(time) {
+                let place = self.routers.worm(number).message.from.index();
+                self.ports[place].queue.push_back((number, at));
+                self.turn_port(place);
+            }
+            if let Some(cycle) = self.next_cycle().filter(|&cycle| self.routers.time(cycle) <= time)
+                && !self.step(cycle)
+            {
+                return Err(self.routers.deadlock());
+            }
+            while let Some((at, number)) = self.arrivals.take_due(time) {
+                let worm = self.routers.worm(number);
+                let (message, stalls) = (worm.message, std::mem::take(&mut worm.stalls));
+                arrived.push(Arrival { message, at, stalls });
+                self.routers.retire(number);
+            }
+        }
+        Ok(())
+    }
+
+    fn channel_use(&self) -> Vec<ChannelUse> {
+        self.routers.channel_use()
+    }
+}

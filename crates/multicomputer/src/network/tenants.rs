@@ -1,0 +1,36 @@
+//! Who held a channel, for as long as somebody waits for it.
+
+use std::collections::VecDeque;
+
+use desim::Time;
+
+use super::channel::Channel;
+use super::delivery::Stall;
+
+/// The tenants of a channel, the earliest first.
+#[derive(Default)]
+pub(crate) struct Tenants(VecDeque<(u64, Time)>);
+
+impl Tenants {
+    /// A message has left the channel, or will at `until`.
+    pub(crate) fn left(&mut self, message: u64, until: Time) {
+        self.0.push_back((message, until));
+    }
+
+    /// Forgets those who left at `now` or earlier.
+    pub(crate) fn forget(&mut self, now: Time) {
+        while self.0.front().is_some_and(|&(_, until)| until <= now) {
+            self.0.pop_front();
+        }
+    }
+
+    /// Whom somebody has waited for who came at `since` and gets the channel now.
+    pub(crate) fn stalls(&self, channel: Channel, since: Time) -> impl Iterator<Item = Stall> {
+        let mut from = since;
+        self.0.iter().filter(move |&&(_, until)| until > since).map(move |&(by, until)| {
+            let span = until - from;
+            from = until;
+            Stall { channel, by, span }
+        })
+    }
+}

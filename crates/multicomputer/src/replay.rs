@@ -1,0 +1,146 @@
+//! A trace sent over a network: when each message left and arrived, and what held it up.
+
+use std::fmt;
+
+use desim::{Duration, Time};
+use thiserror::Error;
+
+use crate::agenda::Agenda;
+use crate::network::{Arrival, Deadlock, Message, Network, Stall};
+use crate::topology::{Place, Topology};
+use crate::trace::{Item, Trace};
+
+/// The course of one message of a trace.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Course {
+    /// When its sender's processor took it up.
+    pub sent: Time,
+    /// When its receiver's processor has read it.
+    pub arrived: Time,
+    /// How other messages of the trace, named by their indices, held it up on the network.
+    pub stalls: Vec<Stall>,
+}
+
+impl Course {
+    /// How long other messages held it up on the network, in all.
+    pub fn blocked(&self) -> Duration {
+        self.stalls.iter().map(|stall| stall.span).sum()
+    }
+
+    /// Indices of the messages that held it up, in order, each once.
+    pub fn blockers(&self) -> Vec<usize> {
+        let mut blockers = Vec::new();
+        for by in self.stalls.iter().map(|stall| stall.by as usize) {
+            if !blockers.contains(&by) {
+                blockers.push(by);
+            }
+        }
+        blockers
+    }
+}
+
+/// A replay that does not end.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub struct ReplayDeadlock {
+    /// When the last message moved.
+    pub at: Time,
+    /// Who waits for whom; messages are named by their indices in the trace.
+    pub deadlock: Deadlock,
+    text: String,
+}
+
+impl fmt::Display for ReplayDeadlock {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "at {}: {}", self.at, self.text)
+    }
+}
+
+/// Sends a trace over a network; returns the course of each message, in the trace's order.
+///
+/// A node's processor does one thing at a time: it sends a message for as long as the network says,
+/// and reads one that has arrived for the receive overhead. Node i stands on place i.
+///
+/// # Errors
+/// [`ReplayDeadlock`] when messages wait for each other for ever.
+pub fn replay(
+    trace: &Trace,
+    network: &mut dyn Network,
+    topology: &Topology,
+) -> Result<Vec<Course>, ReplayDeadlock> {
+    let mut replay = Replay::new(trace, topology.places());
+    let mut arrived = Vec::new();
+    loop {
+        let next = [replay.due.next_time(), network.next_event()].into_iter().flatten().min();
+        let Some(now) = next else { return Ok(replay.courses) };
+        network.advance(now, &mut arrived).map_err(|deadlock| {
+            let name = |message: &Message| format!("\"{}\"", trace.items[message.id as usize].name);
+            ReplayDeadlock { at: now, text: deadlock.describe(name), deadlock }
+        })?;
+        for arrival in arrived.drain(..) {
+            replay.read(arrival, network.receive_overhead());
+        }
+        while let Some((_, index)) = replay.due.take_due(now) {
+            replay.send(index, now, network);
+        }
+    }
+}
+
+struct Replay<'a> {
+    items: &'a [Item],
+    courses: Vec<Course>,
+    /// Messages that can be sent, by when.
+    due: Agenda<usize>,
+    /// Messages that each one waits for still, and those that wait for it.
+    waits_for: Vec<usize>,
+    followers: Vec<Vec<usize>>,
+    /// When each node's processor is free.
+    free: Vec<Time>,
+}
+
+impl Replay<'_> {
+    fn new(trace: &Trace, places: usize) -> Replay<'_> {
+        let items = &trace.items;
+        let mut replay = Replay {
+            items,
+            courses: vec![Course::default(); items.len()],
+            due: Agenda::default(),
+            waits_for: items.iter().map(|item| item.after.len()).collect(),
+            followers: vec![Vec::new(); items.len()],
+            free: vec![Time::ZERO; places],
+        };
+        for (index, item) in items.iter().enumerate() {
+            item.after.iter().for_each(|&earlier| replay.followers[earlier].push(index));
+            if item.after.is_empty() {
+                replay.due.enter(item.at, index);
+            }
+        }
+        replay
+    }
+
+    /// A message's time has come: it is sent, or waits until its node's processor is free.
+    fn send(&mut self, index: usize, now: Time, network: &mut dyn Network) {
+        let &Item { from, to, bytes, .. } = &self.items[index];
+        if self.free[from] > now {
+            return self.due.enter(self.free[from], index);
+        }
+        let [from_place, to] = [from, to].map(Place::new);
+        let message = Message { id: index as u64, from: from_place, to, bytes };
+        self.free[from] = network.send(now, message);
+        self.courses[index].sent = now;
+    }
+
+    /// A message has arrived and is read, which may allow others to be sent.
+    fn read(&mut self, arrival: Arrival, overhead: Duration) {
+        let index = arrival.message.id as usize;
+        let free = &mut self.free[arrival.message.to.index()];
+        *free = arrival.at.max(*free) + overhead;
+        self.courses[index].arrived = *free;
+        self.courses[index].stalls = arrival.stalls;
+        for follower in std::mem::take(&mut self.followers[index]) {
+            self.waits_for[follower] -= 1;
+            if self.waits_for[follower] == 0 {
+                self.due.enter(self.items[follower].at.max(*free), follower);
+            }
+        }
+    }
+}

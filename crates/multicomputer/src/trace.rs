@@ -1,0 +1,186 @@
+//! Traffic that a user brings: messages, when each is sent, and after which others.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use desim::Time;
+use petgraph::algo::tarjan_scc;
+use petgraph::graph::{DiGraph, NodeIndex};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use crate::fault::{MachineFault, read};
+use crate::sourced::{Quantity, Time as Seconds};
+
+/// Longest message, bytes: beyond it a file can only be a slip.
+const MOST_BYTES: u64 = 1_000_000_000;
+/// Latest time at which a message may be sent, seconds: virtual time ends after 213 days.
+const LATEST: f64 = 86_400.0;
+
+/// Messages to send.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Trace {
+    /// In the order of the file, which decides between those that are sent at one time.
+    pub items: Vec<Item>,
+}
+
+/// A message to send.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Item {
+    /// What the user calls it.
+    pub name: String,
+    /// When it is sent, unless `after` or a busy processor delay it.
+    pub at: Time,
+    /// The node that sends it.
+    pub from: usize,
+    /// The node that receives it.
+    pub to: usize,
+    /// Its length.
+    pub bytes: u64,
+    /// Items that must have arrived before it is sent, as indices.
+    pub after: Vec<usize>,
+}
+
+/// An item as it stands in the file.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "an object that describes a message")]
+struct ItemFile {
+    /// A name or a number that no other message has, without spaces, commas and quotes.
+    id: Id,
+    /// When it is sent, such as "0 us"; later if it comes after others, or its node is busy.
+    at: Quantity<Seconds>,
+    /// The node that sends it: compute nodes from 0, then service nodes.
+    from: u64,
+    /// The node that receives it.
+    to: u64,
+    /// Its length in bytes.
+    bytes: u64,
+    /// The ids of messages that must have arrived before it is sent, wherever they went.
+    #[serde(default)]
+    after: Vec<Id>,
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "a name or a whole number")]
+enum Id {
+    Number(u64),
+    Name(String),
+}
+
+impl fmt::Display for Id {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Id::Number(number) => number.fmt(f),
+            Id::Name(name) => name.fmt(f),
+        }
+    }
+}
+
+/// The JSON Schema of a trace.
+pub fn trace_schema() -> serde_json::Value {
+    let mut schema = schemars::schema_for!(Vec<ItemFile>).to_value();
+    schema["title"] = "Virtwall trace".into();
+    schema
+}
+
+impl Trace {
+    /// Reads a trace's text, for a machine of so many `nodes`; `file_name` is for messages only.
+    ///
+    /// # Errors
+    /// [`MachineFault`], which names file, item, field, value and what was expected.
+    pub fn from_json(text: &str, file_name: &str, nodes: usize) -> Result<Trace, MachineFault> {
+        let checked = read::<Vec<ItemFile>>(text).and_then(|items| check(&items, nodes));
+        checked.map_err(|fault| MachineFault { file: file_name.to_owned(), ..fault })
+    }
+}
+
+fn check(items: &[ItemFile], nodes: usize) -> Result<Trace, MachineFault> {
+    let mut numbers = BTreeMap::new();
+    for (index, item) in items.iter().enumerate() {
+        let (id, place) = (item.id.to_string(), format!("[{index}].id"));
+        if id.is_empty() || id.contains(|c: char| c.is_whitespace() || ",\"'".contains(c)) {
+            let message = format!("found \"{id}\"; expected a name without spaces, commas, quotes");
+            return Err(MachineFault::at(place, message));
+        }
+        if let Some(first) = numbers.insert(id.clone(), index) {
+            let message = format!("found \"{id}\", the id of [{first}]; expected one of its own");
+            return Err(MachineFault::at(place, message));
+        }
+    }
+    let items = items.iter().enumerate();
+    let items = items.map(|(index, item)| checked(index, item, nodes, &numbers));
+    let trace = Trace { items: items.collect::<Result<_, _>>()? };
+    match trace.circle() {
+        None => Ok(trace),
+        Some(circle) => {
+            let names = circle.iter().map(|&i| format!("\"{}\"", trace.items[i].name));
+            let names = names.collect::<Vec<_>>().join(" after ");
+            let message = format!("found a circle, {names}; expected messages that can be sent");
+            Err(MachineFault::at(format!("[{}].after", circle[0]), message))
+        }
+    }
+}
+
+/// An item whose fields are right by themselves.
+fn checked(
+    index: usize,
+    item: &ItemFile,
+    nodes: usize,
+    numbers: &BTreeMap<String, usize>,
+) -> Result<Item, MachineFault> {
+    let refuse = |field: &str, found: &dyn fmt::Display, expected: String| {
+        let message = format!("found {found}; expected {expected}");
+        Err(MachineFault::at(format!("[{index}].{field}"), message))
+    };
+    for (field, node) in [("from", item.from), ("to", item.to)] {
+        if node >= nodes as u64 {
+            return refuse(field, &node, format!("a node, 0 to {}", nodes - 1));
+        }
+    }
+    if item.bytes > MOST_BYTES {
+        return refuse("bytes", &item.bytes, format!("at most {MOST_BYTES}"));
+    }
+    if item.at.si > LATEST {
+        return refuse("at", &format!("{} s", item.at.si), format!("at most {LATEST} s"));
+    }
+    let mut after = Vec::new();
+    for (i, id) in item.after.iter().enumerate() {
+        match numbers.get(&id.to_string()) {
+            Some(&number) => after.push(number),
+            None => {
+                let found = format!("\"{id}\"");
+                return refuse(&format!("after[{i}]"), &found, "the id of a message".to_owned());
+            }
+        }
+    }
+    after.sort_unstable();
+    after.dedup();
+    let at = Time::ZERO + item.at.duration();
+    let (from, to) = (item.from as usize, item.to as usize);
+    Ok(Item { name: item.id.to_string(), at, from, to, bytes: item.bytes, after })
+}
+
+impl Trace {
+    /// Items each of which comes after the next one, and the last one after the first, which stands
+    /// there again; none if all can be sent.
+    fn circle(&self) -> Option<Vec<usize>> {
+        let edges = self.items.iter().enumerate();
+        let edges =
+            edges.flat_map(|(i, item)| item.after.iter().map(move |&j| (i as u32, j as u32)));
+        let graph: DiGraph<(), ()> = DiGraph::from_edges(edges);
+        let knots = tarjan_scc(&graph).into_iter();
+        let mut knots =
+            knots.filter(|knot| knot.len() > 1 || graph.contains_edge(knot[0], knot[0]));
+        let knot = knots.next()?;
+        let mut way: Vec<NodeIndex> = vec![*knot.iter().min()?];
+        loop {
+            let here = way[way.len() - 1];
+            let next = graph.neighbors(here).filter(|next| knot.contains(next)).min()?;
+            let seen = way.iter().position(|&earlier| earlier == next);
+            way.push(next);
+            if let Some(seen) = seen {
+                return Some(way[seen..].iter().map(|item| item.index()).collect());
+            }
+        }
+    }
+}

@@ -1,0 +1,185 @@
+//! Synthetic traffic: the patterns by which networks are compared.
+
+use desim::{Duration, Time};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+
+use crate::network::LinkParameters;
+use crate::replay::Course;
+use crate::topology::{Place, Topology};
+use crate::trace::{Item, Trace};
+
+/// Who sends to whom.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pattern {
+    /// To any other node.
+    Uniform,
+    /// To any neighbour on the network, or the nodes next in number where there are none.
+    Neighbour,
+    /// From column x, row y to column y, row x; nodes without such a partner do not send.
+    Transpose,
+    /// To the middle node in one case of five, else to any other node.
+    HotSpot,
+    /// To the middle node.
+    AllToOne,
+}
+
+impl Pattern {
+    /// All patterns.
+    pub const ALL: [Pattern; 5] = [
+        Pattern::Uniform,
+        Pattern::Neighbour,
+        Pattern::Transpose,
+        Pattern::HotSpot,
+        Pattern::AllToOne,
+    ];
+
+    /// Its name in tables and arguments.
+    pub fn name(self) -> &'static str {
+        match self {
+            Pattern::Uniform => "uniform",
+            Pattern::Neighbour => "neighbour",
+            Pattern::Transpose => "transpose",
+            Pattern::HotSpot => "hot-spot",
+            Pattern::AllToOne => "all-to-one",
+        }
+    }
+
+    /// The nodes to which a node sends, each as often as it stands there; the node itself stands
+    /// there where it would send to itself, and does not.
+    fn partners(self, topology: &Topology, nodes: usize, from: usize) -> Vec<usize> {
+        let middle = nodes / 2;
+        let others = || (0..nodes).filter(move |&to| to != from);
+        match self {
+            Pattern::Uniform => others().collect(),
+            Pattern::AllToOne => vec![middle],
+            Pattern::HotSpot => {
+                let many = std::iter::repeat_n(middle, (nodes - 1).div_ceil(4));
+                others().chain(many).collect()
+            }
+            Pattern::Transpose => {
+                let position = topology.position(Place::new(from));
+                let is_partner = |&to: &usize| {
+                    let other = topology.position(Place::new(to));
+                    (other.x, other.y) == (position.y, position.x)
+                };
+                (0..nodes).filter(is_partner).collect()
+            }
+            Pattern::Neighbour => {
+                let near = |&to: &usize| topology.hops(Place::new(from), Place::new(to)) == 1;
+                let near: Vec<usize> = others().filter(near).collect();
+                match near.is_empty() {
+                    true => vec![(from + 1) % nodes, (from + nodes - 1) % nodes],
+                    false => near,
+                }
+            }
+        }
+    }
+}
+
+/// Bytes a second that every node could send if messages were a fluid: then one channel has as much as
+/// it can carry. A network without infinite buffers takes less.
+pub fn fluid_bound(
+    pattern: Pattern,
+    topology: &Topology,
+    nodes: usize,
+    links: &LinkParameters,
+) -> f64 {
+    // Each channel's part of what a node sends, added over all nodes.
+    let mut shares = vec![0.0; topology.graph().edge_count()];
+    let mut outs = vec![0.0; nodes];
+    for from in 0..nodes {
+        let partners = pattern.partners(topology, nodes, from);
+        let share = 1.0 / partners.len() as f64;
+        for to in partners.into_iter().filter(|&to| to != from) {
+            outs[to] += share;
+            for hop in topology.route(Place::new(from), Place::new(to)) {
+                shares[hop.link.index()] += share;
+            }
+        }
+    }
+    links.bandwidth / shares.into_iter().chain(outs).fold(1.0, f64::max)
+}
+
+/// A load of synthetic traffic. Every node sends messages of one size at random moments, at a rate of
+/// its own choosing only in the mean.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Load {
+    /// Who sends to whom.
+    pub pattern: Pattern,
+    /// Bytes a message.
+    pub bytes: u64,
+    /// Mean time between two messages of a node.
+    pub every: Duration,
+    /// Until when messages are sent.
+    pub until: Time,
+    /// Of the random choices.
+    pub seed: u64,
+}
+
+impl Load {
+    /// The traffic among the first `nodes` nodes, in order of time.
+    pub fn trace(&self, topology: &Topology, nodes: usize) -> Trace {
+        let mut items = Vec::new();
+        for from in 0..nodes {
+            let mut random = ChaCha8Rng::seed_from_u64(self.seed);
+            random.set_stream(from as u64);
+            let partners = self.pattern.partners(topology, nodes, from);
+            let mut at = Time::ZERO + self.gap(&mut random);
+            while at < self.until && !partners.is_empty() {
+                let to = partners[below(partners.len(), random.next_u64())];
+                if to != from {
+                    let (name, bytes) = (String::new(), self.bytes);
+                    items.push(Item { name, at, from, to, bytes, after: Vec::new() });
+                }
+                at += self.gap(&mut random);
+            }
+        }
+        items.sort_by_key(|item| item.at);
+        items.iter_mut().enumerate().for_each(|(number, item)| item.name = number.to_string());
+        Trace { items }
+    }
+
+    /// A time until the next message, after Poisson.
+    fn gap(&self, random: &mut ChaCha8Rng) -> Duration {
+        // In (0, 1]: its logarithm is finite.
+        let share = ((random.next_u64() >> 11) + 1) as f64 / (1_u64 << 53) as f64;
+        let seconds = -libm::log(share) * self.every.as_seconds_f64();
+        Duration::from_seconds_f64(seconds)
+    }
+}
+
+/// A number below `count`, evenly spread as `random` is over all numbers.
+fn below(count: usize, random: u64) -> usize {
+    ((u128::from(random) * count as u128) >> 64) as usize
+}
+
+/// What a load found, after the network has filled and before it empties.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Measured {
+    /// Messages sent between a quarter of the time and its end.
+    pub messages: usize,
+    /// Mean time of these from when they were due until they had been read, seconds.
+    pub latency: f64,
+    /// Bytes that arrived in that time, a second, over all nodes.
+    pub throughput: f64,
+}
+
+impl Measured {
+    /// Measures a load by the courses of its messages.
+    pub fn of(load: &Load, trace: &Trace, courses: &[Course]) -> Measured {
+        let from = Time(load.until.0 / 4);
+        let both = || trace.items.iter().zip(courses);
+        let latencies: Vec<f64> = both()
+            .filter(|(item, _)| item.at >= from)
+            .map(|(item, course)| (course.arrived - item.at).as_seconds_f64())
+            .collect();
+        let arrived = both().filter(|(_, course)| (from..load.until).contains(&course.arrived));
+        let bytes: u64 = arrived.map(|(item, _)| item.bytes).sum();
+        Measured {
+            messages: latencies.len(),
+            latency: latencies.iter().sum::<f64>() / latencies.len().max(1) as f64,
+            throughput: bytes as f64 / (load.until - from).as_seconds_f64(),
+        }
+    }
+}

@@ -1,0 +1,311 @@
+//! The rungs of the ladder: closed formulas, fixtures, bars, and what always holds.
+
+#![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::PathBuf;
+
+use desim::{Duration, Time};
+use multicomputer::{
+    Channel, Course, Flit, Item, LinkParameters, Load, LogGpParameters, Machine, Measured, Network,
+    NetworkParameters, Pattern, Place, Rung, Shape, Topology, Trace, exchange, ping_pong, replay,
+};
+use proptest::prelude::*;
+
+fn machines(name: &str) -> PathBuf {
+    PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../machines")).join(name)
+}
+
+fn machine(name: &str) -> Machine {
+    let file = format!("{name}.json");
+    Machine::from_json(&fs::read_to_string(machines(&file)).unwrap(), &file).unwrap()
+}
+
+/// A fixture's courses over a rung.
+fn fixture(trace: &str, machine_name: &str, rung: Rung) -> Result<Vec<Course>, String> {
+    let machine = machine(&format!("fixtures/{machine_name}"));
+    let file = format!("fixtures/{trace}.json");
+    let text = fs::read_to_string(machines(&file)).unwrap();
+    let trace = Trace::from_json(&text, &file, machine.nodes()).unwrap();
+    let mut network = machine.network_on(rung).unwrap();
+    replay(&trace, network.as_mut(), machine.topology()).map_err(|error| error.to_string())
+}
+
+fn seconds(courses: &[Course]) -> Vec<f64> {
+    courses.iter().map(|course| course.arrived.as_seconds_f64()).collect()
+}
+
+const ABOVE_IDEAL: [Rung; 3] = [Rung::LogGp, Rung::Wormhole, Rung::Flit];
+const CONTENDING: [Rung; 2] = [Rung::Wormhole, Rung::Flit];
+
+#[test]
+fn a_blocked_worm_blocks_who_comes_behind() {
+    let worms = fixture("head-of-line", "row-of-4", Rung::Wormhole).unwrap();
+    assert_eq!(seconds(&worms), [1.0, 2.0, 3.0]);
+    let blocked = |course: &Course| (course.blocked().as_seconds_f64(), course.blockers());
+    assert_eq!(
+        worms.iter().map(blocked).collect::<Vec<_>>(),
+        [(0.0, vec![]), (1.0, vec![0]), (2.0, vec![1]),]
+    );
+    // The pipelines fill: a flit's time, 100 µs, a hop, and eight flits wait in each buffer.
+    let flits = fixture("head-of-line", "row-of-4", Rung::Flit).unwrap();
+    for (course, expected) in flits.iter().zip([1.0, 2.0, 3.0]) {
+        assert!((course.arrived.as_seconds_f64() - expected).abs() < 2e-3, "{course:?}");
+    }
+    assert_eq!(flits.iter().map(Course::blockers).collect::<Vec<_>>(), [vec![], vec![0], vec![1]]);
+    // Without contention only the port is waited for.
+    let free = fixture("head-of-line", "row-of-4", Rung::LogGp).unwrap();
+    assert_eq!(seconds(&free), [1.0, 1.0, 2.0]);
+}
+
+#[test]
+fn a_ring_without_virtual_channels_deadlocks_and_names_the_circle() {
+    for rung in CONTENDING {
+        let message = fixture("round-the-ring", "ring-of-4", rung).unwrap_err();
+        let circle = [
+            r#""from-2" (2 to 0) waits for link 3→0, held by "#,
+            r#""from-3" (3 to 1) waits for link 0→1, held by "#,
+            r#""from-0" (0 to 2) waits for link 1→2, held by "#,
+            r#""from-1" (1 to 3) waits for link 2→3, held by "#,
+        ];
+        assert!(message.contains("deadlock in the network: "), "{rung}: {message}");
+        assert!(circle.iter().all(|part| message.contains(part)), "{rung}: {message}");
+        let courses = fixture("round-the-ring", "ring-of-4-two-channels", rung).unwrap();
+        assert!(courses.iter().all(|course| course.arrived > Time::ZERO), "{rung}");
+    }
+}
+
+#[test]
+fn alone_a_message_takes_what_the_formula_says() {
+    let paragon = machine("paragon-xps");
+    let software = paragon.parameters.software.clone().unwrap();
+    let near = |found: Time, expected: Duration, what: &str| {
+        let (found, expected) = (found.as_seconds_f64(), expected.as_seconds_f64());
+        assert!((found / expected - 1.0).abs() < 1e-3, "{what}: {found} for {expected}");
+    };
+    for rung in ABOVE_IDEAL {
+        let network = || paragon.network_on(rung).unwrap();
+        for bytes in [0, 1, 100, 4_096, 65_536] {
+            for (partner, hops) in [(1, 1), (2, 2), (55, 16)] {
+                let what = format!("{rung}, {bytes} B, 0 to {partner}");
+                let one_way = software.one_way(bytes, hops);
+                let time = ping_pong(&paragon, network(), (0, partner), bytes, 3).unwrap();
+                near(time, one_way * 6, &what);
+            }
+            let items = [(0, 1), (1, 0)].map(|(from, to)| item(Time::ZERO, from, to, bytes));
+            let trace = Trace { items: items.to_vec() };
+            let courses = replay(&trace, network().as_mut(), paragon.topology()).unwrap();
+            for course in courses {
+                near(course.arrived, software.one_way(bytes, 1), "exchange");
+            }
+        }
+    }
+}
+
+fn item(at: Time, from: usize, to: usize, bytes: u64) -> Item {
+    Item { name: String::new(), at, from, to, bytes, after: Vec::new() }
+}
+
+#[test]
+fn an_exchange_of_neighbours_costs_the_same_with_and_without_contention() {
+    // Ports are slower than links, and a row's ends are three links apart, which others use too.
+    let paragon = machine("paragon-xps");
+    let time = |rung| {
+        let network = paragon.network_on(rung).unwrap();
+        exchange(&paragon, network, 56, 4_096, 2).unwrap().as_seconds_f64()
+    };
+    let expected = time(Rung::LogGp);
+    for rung in CONTENDING {
+        assert!((time(rung) / expected - 1.0).abs() < 2e-3, "{rung}: {} {expected}", time(rung));
+    }
+}
+
+/// A network without software, whose cycle is 1 ns, and whose hop takes `cycles` of them.
+fn bare(flit_bytes: u64, cycles: u64, virtual_channels: u32) -> NetworkParameters {
+    let bandwidth = flit_bytes as f64 * 1e9;
+    let software = LogGpParameters::bare(Duration(1_000) * cycles, bandwidth);
+    let links = LinkParameters { bandwidth, flit_bytes, buffer_flits: 8, virtual_channels };
+    NetworkParameters { software: Some(software), links: Some(links) }
+}
+
+/// BookSim2 for this set-up: 8 × 8 mesh, XY, one virtual channel, buffers of 8 flits, packets of 20
+/// flits, uniform traffic saturates at 0.23 to 0.24 flits a cycle and node. A hop takes 5 cycles, as
+/// its default router does: route, virtual channel, switch, crossbar and link.
+#[test]
+fn flits_saturate_where_booksim_s_do() {
+    let topology = Topology::new(Shape::Mesh { width: 8, height: 8 });
+    let accepted = |offered: f64| {
+        let every = Duration((20_000.0 / offered) as u64);
+        let until = Time(8_000_000);
+        let load = Load { pattern: Pattern::Uniform, bytes: 20, every, until, seed: 1996 };
+        let trace = load.trace(&topology, 64);
+        let mut network = bare(1, 5, 1).build(Rung::Flit, &topology).unwrap();
+        let courses = replay(&trace, network.as_mut(), &topology).unwrap();
+        Measured::of(&load, &trace, &courses).throughput / 64e9
+    };
+    // Below saturation all that is offered arrives; beyond it no more than at saturation.
+    assert!((accepted(0.2) / 0.2 - 1.0).abs() < 0.03, "{}", accepted(0.2));
+    let saturated = accepted(0.4);
+    assert!((0.23 * 0.9..0.24 * 1.1).contains(&saturated), "{saturated}");
+}
+
+/// Mean latencies of both rungs with contention, below saturation: where flits take less than thrice
+/// as long as on an empty network.
+#[test]
+fn worms_take_as_long_as_flits() {
+    let topology = Topology::new(Shape::Mesh { width: 8, height: 8 });
+    for (pattern, loads) in [
+        (Pattern::Uniform, [0.05, 0.15]),
+        (Pattern::Neighbour, [0.1, 0.4]),
+        (Pattern::Transpose, [0.03, 0.1]),
+        (Pattern::HotSpot, [0.02, 0.05]),
+        (Pattern::AllToOne, [0.005, 0.011]),
+    ] {
+        for share in loads {
+            // 4 KB are 128 flits: 128 ns.
+            let every = Duration((128_000.0 / share) as u64);
+            let until = Time::ZERO + every * 30;
+            let load = Load { pattern, bytes: 4_096, every, until, seed: 1996 };
+            let trace = load.trace(&topology, 64);
+            let [worms, flits] = CONTENDING.map(|rung| {
+                let mut network = bare(32, 2, 1).build(rung, &topology).unwrap();
+                let courses = replay(&trace, network.as_mut(), &topology).unwrap();
+                Measured::of(&load, &trace, &courses).latency
+            });
+            assert!(flits < 3.0 * 128e-9, "{} {share} is saturated: {flits}", pattern.name());
+            let difference = worms / flits - 1.0;
+            assert!(difference.abs() < 0.15, "{} {share}: {difference}", pattern.name());
+        }
+    }
+}
+
+#[test]
+fn golden_courses_of_a_reduction() {
+    // Four nodes of a row send to the first one; the farther ones' worms wait where they meet, and
+    // the answer goes out when all have been read.
+    let text = r#"[
+        {"id": 1, "at": "0 us", "from": 1, "to": 0, "bytes": 4096},
+        {"id": 2, "at": "1 us", "from": 2, "to": 0, "bytes": 4096},
+        {"id": 3, "at": "0 us", "from": 3, "to": 0, "bytes": 4096},
+        {"id": "answer", "at": "0 us", "from": 0, "to": 3, "bytes": 0, "after": [1, 2, 3]}
+    ]"#;
+    let paragon = machine("paragon-xps");
+    let trace = Trace::from_json(text, "t.json", paragon.nodes()).unwrap();
+    let mut network = paragon.network_on(Rung::Wormhole).unwrap();
+    let courses = replay(&trace, network.as_mut(), paragon.topology()).unwrap();
+    let lines = courses.iter().zip(&trace.items).map(|(course, item)| {
+        let (sent, arrived, blocked) = (course.sent, course.arrived, course.blocked());
+        format!("{} {sent} {arrived} {blocked} {:?}", item.name, course.blockers())
+    });
+    assert_eq!(
+        lines.collect::<Vec<_>>(),
+        [
+            "1 0 s 105.055385 µs 0 s []",
+            "2 1 µs 151.866813 µs 45.771428 µs [2]",
+            "3 0 s 128.461099 µs 23.325714 µs [0]",
+            "answer 151.866813 µs 193.986813 µs 0 s []",
+        ]
+    );
+}
+
+/// Machines of every topology, small enough that messages meet.
+fn shapes() -> impl Strategy<Value = Shape> {
+    prop_oneof![
+        (1..5_u16, 1..4_u16).prop_map(|(width, height)| Shape::Mesh { width, height }),
+        (1..5_u16, 1..4_u16).prop_map(|(width, height)| Shape::Torus { width, height }),
+        (1..7_u32).prop_map(|places| Shape::Crossbar { places }),
+        (1..7_u32).prop_map(|places| Shape::Bus { places }),
+    ]
+}
+
+proptest! {
+    /// Any traffic, on any topology and rung: every message arrives once, in order between each
+    /// pair, and not before the formula says; no channel carries two messages at a time.
+    #[test]
+    fn messages_arrive_once_in_order_and_not_early(
+        shape in shapes(),
+        letters in prop::collection::vec((0..100_usize, 0..100_usize, 1..600_u64, 0..900_u64), 1..40),
+        rung in prop::sample::select(ABOVE_IDEAL.to_vec()),
+    ) {
+        let topology = Topology::new(shape);
+        let places = topology.places();
+        let parameters = bare(4, 2, 2);
+        let software = parameters.software.clone().unwrap();
+        let items = letters.iter().map(|&(from, to, bytes, at)| {
+            item(Time(at * 1_000), from % places, to % places, bytes)
+        });
+        let trace = Trace { items: items.collect() };
+        let mut network = parameters.build(rung, &topology).unwrap();
+        let courses = replay(&trace, network.as_mut(), &topology).unwrap();
+        let mut lasts = BTreeMap::new();
+        let mut order: Vec<usize> = (0..trace.items.len()).collect();
+        order.sort_by_key(|&i| (courses[i].sent, i));
+        for i in order {
+            let (item, course) = (&trace.items[i], &courses[i]);
+            let places = [item.from, item.to].map(Place::new);
+            let least = software.one_way(item.bytes, topology.hops(places[0], places[1]));
+            prop_assert!(course.arrived >= course.sent + least);
+            prop_assert!(course.sent >= item.at);
+            let last = lasts.insert((item.from, item.to), course.arrived);
+            prop_assert!(last.is_none_or(|last| last <= course.arrived));
+        }
+        one_at_a_time(&trace, &courses, network.as_ref(), rung)?;
+    }
+
+    /// First come, first served: heads of worms from everywhere reach a crossbar's way out in the
+    /// order in which they were sent.
+    #[test]
+    fn who_comes_first_is_served_first(
+        starts in prop::collection::vec(0..2_000_u64, 2..12),
+        rung in prop::sample::select(CONTENDING.to_vec()),
+    ) {
+        let topology = Topology::new(Shape::Crossbar { places: 13 });
+        let items = starts.iter().enumerate().map(|(i, &at)| item(Time(at * 1_000), i + 1, 0, 400));
+        let trace = Trace { items: items.collect() };
+        let mut network = bare(4, 2, 1).build(rung, &topology).unwrap();
+        let courses = replay(&trace, network.as_mut(), &topology).unwrap();
+        let mut order: Vec<usize> = (0..starts.len()).collect();
+        order.sort_by_key(|&i| (starts[i], i));
+        prop_assert!(order.windows(2).all(|pair| courses[pair[0]].arrived < courses[pair[1]].arrived));
+    }
+}
+
+/// Every message held each channel alone: none was held for longer than the time that went by, and
+/// messages came into a node one after the other.
+fn one_at_a_time(
+    trace: &Trace,
+    courses: &[Course],
+    network: &dyn Network,
+    rung: Rung,
+) -> Result<(), TestCaseError> {
+    let end = courses.iter().map(|course| course.arrived).max().unwrap_or_default();
+    for used in network.channel_use() {
+        let lanes = match used.channel {
+            Channel::Link(_) => 2,
+            Channel::Injection(_) | Channel::Ejection(_) => 1,
+        };
+        prop_assert!(used.held <= (end - Time::ZERO) * lanes, "{used:?}");
+        prop_assert!(used.carrying <= end - Time::ZERO, "{used:?}");
+    }
+    if rung == Rung::LogGp {
+        return Ok(());
+    }
+    let mut arrivals: Vec<_> =
+        trace.items.iter().zip(courses).map(|(i, c)| (i.to, c.arrived, i.bytes)).collect();
+    arrivals.sort_unstable();
+    for pair in arrivals.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
+        prop_assert!(pair[1].1 >= pair[0].1 + Duration(250) * pair[1].2, "{pair:?}");
+    }
+    Ok(())
+}
+
+#[test]
+fn a_network_of_flits_needs_no_message_to_be_dropped() {
+    let topology = Topology::new(Shape::Mesh { width: 2, height: 1 });
+    let parameters = bare(4, 2, 1);
+    let (software, links) = (parameters.software.unwrap(), parameters.links.unwrap());
+    let mut network = Flit::new(software, links, &topology);
+    assert_eq!(network.next_event(), None);
+    assert_eq!(network.advance(Time(5), &mut Vec::new()), Ok(()));
+}
