@@ -36,7 +36,7 @@ enum Command {
     Run(run::Arguments),
     /// Draw the plots and the report of saved results anew.
     Plot(plot::Arguments),
-    /// Validate experiments, machines, scenes and OBJ files, and say what each is.
+    /// Validate experiments, machines, traces, scenes and OBJ files, and say what each is.
     Check(check::Arguments),
     /// Make a scene of the paper, or look at any scene.
     #[command(subcommand)]

@@ -1,10 +1,10 @@
 //! An experiment file, typed: one point of its sweep, every field as the user may write it.
 
+use multicomputer::Model;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use crate::network::NetworkChoice;
 use crate::quantity::{Fraction, Length, Period, Triple};
 use crate::schema;
 
@@ -41,7 +41,7 @@ pub struct Experiment {
     /// Model of the network, in place of the one that the machine's file chooses. With it come the
     /// columns network_used, network_why, busiest_link and blocked_s.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub network: Option<NetworkChoice>,
+    pub network: Option<Model>,
     /// How far the time on the network "auto" may be from that on the next finer one. Default: 1 %.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub network_tolerance: Option<Fraction>,

@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
 
-use crate::network::Rung;
+use crate::network::Model;
 use crate::sourced::{Bandwidth, Bytes, Cycles, Frequency, Positive, Quantity, Sourced, Time};
 
 /// A distributed-memory machine: compute nodes and service nodes on a mesh, a torus, a crossbar or a
@@ -104,35 +104,6 @@ pub(crate) struct NetworkFile {
     /// The links. The models "wormhole", "flit" and "auto" need them.
     #[serde(default)]
     pub(crate) links: Option<LinksFile>,
-}
-
-/// A model of the network.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub(crate) enum Model {
-    /// Messages arrive at once and cost nothing.
-    Ideal,
-    /// LogGP with hops, without contention.
-    LogGp,
-    /// Worms that hold the links of their routes, message by message.
-    Wormhole,
-    /// Flits, buffers and virtual channels, cycle by cycle.
-    Flit,
-    /// The cheapest one whose answer is near enough to that of the next one.
-    Auto,
-}
-
-impl Model {
-    /// The rung of the ladder; none for "auto".
-    pub(crate) fn rung(self) -> Option<Rung> {
-        match self {
-            Model::Ideal => Some(Rung::Ideal),
-            Model::LogGp => Some(Rung::LogGp),
-            Model::Wormhole => Some(Rung::Wormhole),
-            Model::Flit => Some(Rung::Flit),
-            Model::Auto => None,
-        }
-    }
 }
 
 /// Parameters of LogGP. A message of n bytes, alone on the network, is read after

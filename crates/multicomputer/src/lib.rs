@@ -35,8 +35,8 @@ pub use machine::{Machine, MachineError, Published};
 pub use multicomputer::Multicomputer;
 pub use network::{
     Arrival, Channel, ChannelUse, Deadlock, Delivery, Flit, Foretold, Formula, Ideal,
-    LinkParameters, LogGp, LogGpParameters, Message, Network, NetworkParameters, Rung, Stall,
-    Waiting, Wormhole,
+    LinkParameters, LogGp, LogGpParameters, Message, Model, Network, NetworkParameters, Rung,
+    Stall, Waiting, Wormhole,
 };
 pub use node::{Node, Rank};
 pub use processor::Processor;

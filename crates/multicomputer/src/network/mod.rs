@@ -24,5 +24,5 @@ pub use formula::{Delivery, Foretold, Formula};
 pub use ideal::Ideal;
 pub use links::LinkParameters;
 pub use loggp::{LogGp, LogGpParameters};
-pub use rung::{NetworkParameters, Rung};
+pub use rung::{Model, NetworkParameters, Rung};
 pub use wormhole::Wormhole;
