@@ -21,9 +21,10 @@ use desim::{Duration, Time};
 
 use super::channel::Channel;
 use super::deadlock::Deadlock;
-use super::delivery::{Arrival, ChannelUse, Message, Network, Stall};
+use super::delivery::{Arrival, ChannelUse, Network, Stall};
 use super::links::LinkParameters;
 use super::loggp::LogGpParameters;
+use super::message::Message;
 use super::routers::Routers;
 use crate::agenda::Agenda;
 use crate::topology::Topology;

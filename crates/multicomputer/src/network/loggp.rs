@@ -15,8 +15,9 @@
 use desim::{Duration, Time};
 
 use super::channel::Channel;
-use super::delivery::{Message, Stall};
+use super::delivery::Stall;
 use super::formula::{Delivery, Formula};
+use super::message::Message;
 use crate::topology::Topology;
 
 /// Parameters of the model.
