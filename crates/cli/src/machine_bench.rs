@@ -117,6 +117,7 @@ fn draw(table: &Table, out: &std::path::Path) -> std::io::Result<()> {
             title: Some(title.to_owned()),
             log_x: true,
             log_y: true,
+            power_law: false,
             file: None,
         };
         lab::write_file(

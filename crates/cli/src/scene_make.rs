@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use scenemaker::SceneKind;
+use scenemaker::{MOST_TABLES, SceneKind, SceneText};
 
 use crate::exit::Exit;
 
@@ -12,9 +12,15 @@ use crate::exit::Exit;
 pub struct Arguments {
     /// office, rooms or building
     kind: SceneKind,
+    /// Floors of the building, instead of its five; its files are then called building-N
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(2..=1000))]
+    floors: Option<u16>,
     /// Seed of what is drawn at random
     #[arg(long, value_name = "N", default_value_t = 1996)]
     seed: u64,
+    /// Tables in each of the rooms, of which the paper has four
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(..=i64::from(MOST_TABLES)))]
+    tables: Option<u32>,
     /// Folder for the OBJ and MTL files
     #[arg(long, value_name = "DIR", default_value = "scenes")]
     out: PathBuf,
@@ -25,12 +31,28 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let out = &arguments.out;
     std::fs::create_dir_all(out)
         .map_err(|error| Exit::bad_input(format!("{}: no folder: {error}", out.display())))?;
-    let text = scenemaker::make(arguments.kind, arguments.seed);
+    let text = text(arguments)?;
     let mut output = String::new();
     for (ending, contents) in [("obj", &text.obj), ("mtl", &text.mtl)] {
-        let path = out.join(format!("{}.{ending}", arguments.kind.name()));
+        let path = out.join(format!("{}.{ending}", text.name));
         lab::write_file(&path, contents.as_bytes()).map_err(Exit::failure)?;
         output += &format!("{}\n", path.display());
     }
     Ok(output)
+}
+
+fn text(arguments: &Arguments) -> Result<SceneText, Exit> {
+    let seed = arguments.seed;
+    match (arguments.kind, arguments.floors, arguments.tables) {
+        (kind, None, None) => Ok(scenemaker::make(kind, seed)),
+        (SceneKind::Rooms, None, Some(tables)) => Ok(scenemaker::make_rooms(tables, seed)),
+        (SceneKind::Building, Some(floors), None) => scenemaker::make_building(floors, seed)
+            .ok_or_else(|| Exit::bad_input(format!("{floors} floors; expected 2 to 1000"))),
+        (kind, Some(_), _) => {
+            Err(Exit::bad_input(format!("--floors: found {kind}; expected building")))
+        }
+        (kind, _, Some(_)) => {
+            Err(Exit::bad_input(format!("--tables: found {kind}; expected rooms")))
+        }
+    }
 }

@@ -98,6 +98,19 @@ fn every_choice_in_the_code_is_listed() {
     assert_eq!(marked, listed);
 }
 
+/// `cargo test` leaves no crate out but the one that compares with other programs.
+#[test]
+fn every_crate_is_built_by_default() {
+    let manifest = fs::read_to_string(crates().join("../Cargo.toml")).unwrap();
+    for entry in fs::read_dir(crates()).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        if crates().join(&name).join("Cargo.toml").exists() {
+            let listed = manifest.contains(&format!("    \"crates/{name}\",\n"));
+            assert_eq!(listed, name != "peers", "default-members and {name}");
+        }
+    }
+}
+
 /// The table in the README is the one in results/table1, and so is the summary.
 #[test]
 fn the_readme_tells_the_results() {
@@ -130,4 +143,27 @@ fn the_readme_tells_the_results() {
     }
     let summary = format!("is **{:.3}**", (logarithms / 21.0_f64).exp());
     assert!(readme.contains(&summary), "{summary}");
+}
+
+/// The table of the scale experiment is the one in results/scale.
+#[test]
+fn the_readme_tells_what_scales() {
+    let readme = fs::read_to_string(crates().join("../README.md")).unwrap();
+    let csv = fs::read_to_string(crates().join("../results/scale/runs.csv")).unwrap();
+    let mut lines = csv.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let names = lines.next().unwrap();
+    let runs: Vec<_> = lines.collect();
+    let cell = |run: &[&str], name| run[names.iter().position(|n| *n == name).unwrap()].to_owned();
+    let told = table(&readme, "floors");
+    assert_eq!(told.len() * 3, runs.len());
+    for (row, runs) in told.iter().zip(runs.chunks(3)) {
+        let scene =
+            if row[0] == "5" { "building".to_owned() } else { format!("building-{}", row[0]) };
+        let counts = ["patches", "local_shots"].map(|name| cell(&runs[0], name));
+        assert_eq!(runs[0][0], scene);
+        assert_eq!([&row[1], &row[2]].map(|count| count.replace(',', "")), counts);
+        let times = runs.iter().map(|run| cell(run, "time_s").parse::<f64>().unwrap());
+        let times: Vec<String> = times.map(|time| format!("{time:.1}")).collect();
+        assert_eq!(row[3..6], times, "{scene}");
+    }
 }

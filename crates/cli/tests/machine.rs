@@ -136,7 +136,7 @@ fn an_experiment_runs_on_every_network_and_says_what_differs() {
     let project = Project::new(&text);
     let (code, said, stderr) = virtwall(&project.path(""), &["run", "experiments/x.json"]);
     assert_eq!((code, stderr.as_str()), (0, ""), "{said}");
-    assert!(said.contains("  network   farthest from the finest    host s\n"), "{said}");
+    assert!(said.contains("  network   farthest from the finest     CPU s\n"), "{said}");
     let rows = rows(&project);
     assert_eq!(rows.len(), 15);
     for row in &rows {

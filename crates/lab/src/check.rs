@@ -35,7 +35,7 @@ pub fn check(path: &Path) -> Result<String, Fault> {
         let (runs, problems) = (plan.runs.len(), plan.problems.len());
         return Ok(format!("an experiment, {runs} runs of {problems} meshed scenes"));
     }
-    if has("obj") {
+    if has("obj") || has("made") {
         return scene(path, "a scene");
     }
     if has("processor") || has("network") {
@@ -48,7 +48,7 @@ pub fn check(path: &Path) -> Result<String, Fault> {
         engine::load_machine(path)?;
         return Ok(what);
     }
-    let message = "neither an experiment (\"scene\"), a scene (\"obj\") nor a machine (\"processor\"); \
+    let message = "neither an experiment (\"scene\"), a scene (\"obj\" or \"made\") nor a machine (\"processor\"); \
                    expected one of them, a trace, or an OBJ file";
     Err(Fault::of_file(path.display(), message))
 }

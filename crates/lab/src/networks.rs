@@ -40,20 +40,20 @@ fn of(ending: &Ending) -> Option<(Rung, f64)> {
     Some((rung, figures.time_s?))
 }
 
-/// What each model of a sweep over networks differs by from the finest, at most, and how long the host
-/// took for its runs; empty if no sweep goes over networks. Shots are kept from run to run, so that the
+/// What each model of a sweep over networks differs by from the finest, at most, and what its runs took
+/// of the host; empty if no sweep goes over networks. Shots are kept from run to run, so that the
 /// models that come first pay for them.
 pub fn text(plan: &Plan, endings: &Endings) -> String {
     let Some(axis) = plan.axes.iter().position(|axis| axis.place.to_string() == "network") else {
         return String::new();
     };
     let finest = finest(plan, endings);
-    let mut text = format!("{:>9}{:>27}{:>10}\n", "network", "farthest from the finest", "host s");
+    let mut text = format!("{:>9}{:>27}{:>10}\n", "network", "farthest from the finest", "CPU s");
     for (item, value) in plan.axes[axis].values.iter().enumerate() {
-        let runs = plan.runs.iter().zip(endings.runs.iter().zip(&endings.host_seconds));
+        let runs = plan.runs.iter().zip(endings.runs.iter().zip(&endings.host));
         let (mut farthest, mut seconds) = (0.0_f64, 0.0);
         for (run, (ending, host)) in runs.filter(|(run, _)| run.index[axis] == item) {
-            seconds += host.unwrap_or(0.0);
+            seconds += host.map_or(0.0, |host| host.cpu_s);
             let time = ending.as_ref().and_then(of).map(|(_, time)| time);
             let best = finest.get(&all_else(plan, run, "network"));
             if let Some((time, (_, best))) = time.zip(best) {

@@ -70,6 +70,8 @@ pub struct Prepared {
     pub problem: Arc<Problem>,
     /// The scene's files.
     pub digests: Vec<FileDigest>,
+    /// CPU seconds that reading, cleaning, cutting and meshing took.
+    pub set_up_s: f64,
 }
 
 /// A machine and the file it was read from.

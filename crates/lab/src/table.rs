@@ -55,8 +55,15 @@ impl Table {
         writer.into_inner().map_err(|error| std::io::Error::other(error.to_string()))
     }
 
-    /// A cell; empty if there is no such column.
+    /// A cell, or one count of a cell of operations; empty if there is no such column.
     pub fn cell<'a>(&'a self, row: &'a [String], column: &str) -> &'a str {
+        let [operations, one] = columns::OPERATIONS;
+        if let Some(name) = column.strip_prefix(one) {
+            let mut counts = self.cell(row, operations).split(' ');
+            return counts
+                .find_map(|count| count.strip_prefix(name)?.strip_prefix('='))
+                .unwrap_or("");
+        }
         let index = self.columns.iter().position(|name| name == column);
         index.and_then(|index| row.get(index)).map_or("", String::as_str)
     }

@@ -1,0 +1,22 @@
+//! Rungs of the ladder of networks, by messages a second of the host.
+
+#![allow(missing_docs, reason = "a benchmark has no users")]
+
+mod exchange;
+
+use divan::Bencher;
+use divan::counter::ItemsCount;
+use multicomputer::Rung;
+
+/// Messages of a round: 56 nodes × 4 neighbours.
+const ROUNDS: u64 = 100;
+
+fn main() {
+    divan::main();
+}
+
+#[divan::bench(args = exchange::RUNGS)]
+fn network(bencher: Bencher, rung: Rung) {
+    let messages = (exchange::COLUMNS * exchange::ROWS * 4) as u64 * ROUNDS;
+    bencher.counter(ItemsCount::new(messages)).bench(|| exchange::exchange(rung, ROUNDS));
+}
