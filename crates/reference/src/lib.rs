@@ -1,0 +1,17 @@
+//! What the answer should be: closed-form view factors, form factors as exact as wanted, and two
+//! solutions to hold others against, a dense one and a path-traced one.
+//!
+//! Knows nothing of processors, messages or time, nor of files.
+
+pub mod closed_form;
+mod cubature;
+mod element;
+mod gauss;
+mod objects;
+mod pair;
+mod ring;
+
+pub use cubature::{Estimate, Tolerance};
+pub use element::element_to_polygon;
+pub use objects::Objects;
+pub use pair::{Pair, Surface};

@@ -1,0 +1,167 @@
+//! Two convex polygons that may see each other.
+
+use radiosity::glam::DVec3;
+use radiosity::{Plane, Scene};
+
+use crate::cubature::{Estimate, Part, Tolerance, integrate, quarters};
+use crate::element::contour;
+use crate::ring::{Ring, above, cut_out, fan};
+
+/// A convex part of a scene's polygon.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Surface {
+    /// Its corners, counter-clockwise seen from the front, local coordinates.
+    pub corners: Vec<DVec3>,
+    /// Its plane.
+    pub plane: Plane,
+    /// The polygon that it belongs to.
+    pub polygon: u32,
+}
+
+/// What two surfaces exchange, made ready to be integrated over the first: each without what lies
+/// behind the other, and what may stand between them.
+///
+/// As for rays, a polygon is opaque from both sides. Where polygons of one plane that face the same
+/// way overlap, all but the first of them are not there.
+pub struct Pair {
+    from: Vec<Ring>,
+    normal: DVec3,
+    to: Vec<Ring>,
+    blockers: Vec<Blocker>,
+}
+
+/// What of a polygon may stand between two others.
+struct Blocker {
+    corners: Ring,
+    plane: Plane,
+}
+
+impl Surface {
+    /// A whole polygon of a scene.
+    pub fn of_polygon(scene: &Scene, polygon: u32) -> Surface {
+        let face = &scene.polygons[polygon as usize];
+        Surface { corners: scene.corners(face).collect(), plane: face.plane, polygon }
+    }
+
+    fn height(&self, point: DVec3) -> f64 {
+        height(&self.plane, point)
+    }
+
+    /// Its uncovered parts in front of another surface.
+    fn in_front_of(&self, other: &Surface, scene: &Scene) -> Vec<Ring> {
+        let tolerance = scene.tolerance();
+        if !self.corners.iter().any(|&p| other.height(p) > tolerance) {
+            return Vec::new();
+        }
+        let mut parts = vec![above(&self.corners, |p| other.height(p))];
+        for cover in &scene.polygons[..self.polygon as usize] {
+            let alike = cover.plane.normal.dot(self.plane.normal) > 0.0
+                && scene.corners(cover).all(|p| self.height(p).abs() <= tolerance);
+            if alike {
+                let corners: Ring = scene.corners(cover).collect();
+                parts = cut_out(parts, corners.len(), |side, p| {
+                    let (a, b) = (corners[side], corners[(side + 1) % corners.len()]);
+                    cover.plane.normal.dot((b - a).cross(p - a))
+                });
+            }
+        }
+        parts
+    }
+}
+
+impl Pair {
+    /// Two surfaces of a scene; none if neither ever sees the other's front.
+    pub fn new(scene: &Scene, from: &Surface, to: &Surface) -> Option<Pair> {
+        let (source, target) = (from.in_front_of(to, scene), to.in_front_of(from, scene));
+        if from.polygon == to.polygon || source.is_empty() || target.is_empty() {
+            return None;
+        }
+        let between = |polygon: &u32| *polygon != from.polygon && *polygon != to.polygon;
+        let blocker = |polygon: u32| {
+            let face = &scene.polygons[polygon as usize];
+            Blocker::new(scene.corners(face).collect(), face.plane, from, to, scene.tolerance())
+        };
+        let blockers =
+            (0..scene.polygons.len() as u32).filter(between).filter_map(blocker).collect();
+        Some(Pair { from: source, normal: from.plane.normal, to: target, blockers })
+    }
+
+    /// The form factor from an element of the first surface to what it sees of the second, exact to
+    /// rounding: the corner-to-corner shadows of all that stands between are cut out.
+    pub fn from_element(&self, point: DVec3) -> f64 {
+        let seen = |ring: &Ring| ring.iter().map(|&p| p - point).collect::<Ring>();
+        let mut pieces: Vec<Ring> = self.to.iter().map(seen).collect();
+        for blocker in &self.blockers {
+            pieces = blocker.shade(pieces, point);
+        }
+        pieces.iter().map(|piece| contour(self.normal, piece)).sum()
+    }
+
+    /// The triangles over which [`Pair::from_element`] is to be integrated.
+    pub(crate) fn parts(&self, function: usize) -> Vec<Part> {
+        let smooth = self.blockers.is_empty();
+        let part = |triangle| Part { triangle, function, smooth };
+        let triangles = self.from.iter().flat_map(|ring| fan(ring));
+        if smooth {
+            triangles.map(part).collect()
+        } else {
+            // A look all over the surface: what no point sees would be taken for dark.
+            triangles.flat_map(quarters).map(part).collect()
+        }
+    }
+
+    /// Area of the first surface times the form factor to the second, m²; the same the other way round.
+    pub fn exchange(&self, tolerance: Tolerance) -> Estimate {
+        integrate(self.parts(0), tolerance, |_, point| self.from_element(point))
+    }
+}
+
+impl Blocker {
+    /// None for a polygon that cannot stand between the two surfaces.
+    fn new(
+        corners: Ring,
+        plane: Plane,
+        from: &Surface,
+        to: &Surface,
+        tolerance: f64,
+    ) -> Option<Blocker> {
+        // Its plane must part them.
+        let reach = |surface: &Surface, side: f64| {
+            surface.corners.iter().any(|&p| side * height(&plane, p) > tolerance)
+        };
+        let parts = |side: f64| reach(from, side) && reach(to, -side);
+        let before = |surface: &Surface| corners.iter().any(|&p| surface.height(p) > tolerance);
+        if !((parts(1.0) || parts(-1.0)) && before(from) && before(to)) {
+            return None;
+        }
+        let corners = above(&above(&corners, |p| from.height(p)), |p| to.height(p));
+        (!corners.is_empty() && !outside(&corners, from, to)).then_some(Blocker { corners, plane })
+    }
+
+    /// What is left of pieces, given as seen from `point`, outside the shadow that light at `point`
+    /// would cast.
+    fn shade(&self, pieces: Vec<Ring>, point: DVec3) -> Vec<Ring> {
+        let side = height(&self.plane, point);
+        if side == 0.0 {
+            return pieces;
+        }
+        let n = self.corners.len();
+        let planes: Vec<DVec3> = (0..n)
+            .map(|i| (self.corners[(i + 1) % n] - point).cross(self.corners[i] - point))
+            .map(|normal| normal * side.signum())
+            .collect();
+        cut_out(pieces, n, |i, p| planes[i].dot(p))
+    }
+}
+
+fn height(plane: &Plane, point: DVec3) -> f64 {
+    plane.normal.dot(point) - plane.offset
+}
+
+/// Whether corners all lie beyond the box around two surfaces, on one side of it.
+fn outside(corners: &[DVec3], from: &Surface, to: &Surface) -> bool {
+    let around = |points: &mut dyn Iterator<Item = DVec3>| radiosity::Bounds::of(points);
+    let both = around(&mut from.corners.iter().chain(&to.corners).copied());
+    let own = around(&mut corners.iter().copied());
+    (own.min.cmpgt(both.max) | own.max.cmplt(both.min)).any()
+}
