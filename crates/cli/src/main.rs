@@ -5,12 +5,14 @@
 mod bench_rays;
 mod check;
 mod exit;
+mod formfactors;
 mod plot;
 mod progress;
 mod run;
 mod scene_make;
 mod scene_show;
 mod schema;
+mod steps;
 
 use std::process::ExitCode;
 
@@ -37,6 +39,8 @@ enum Command {
     /// Make a scene of the paper, or look at any scene.
     #[command(subcommand)]
     Scene(SceneCommand),
+    /// Find the form factors between the objects of any scene.
+    Formfactors(formfactors::Arguments),
     /// Measure how fast this host is.
     #[command(subcommand)]
     Bench(BenchCommand),
@@ -65,6 +69,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Scene(SceneCommand::Make(arguments)) => scene_make::run(&arguments),
         Command::Scene(SceneCommand::Show(arguments)) => scene_show::run(&arguments),
+        Command::Formfactors(arguments) => formfactors::run(&arguments),
         Command::Bench(BenchCommand::Rays(arguments)) => bench_rays::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
     };

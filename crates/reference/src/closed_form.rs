@@ -128,7 +128,10 @@ mod tests {
     #[test]
     fn the_general_formulas_hold_the_special_ones() {
         let unit = [0.0, 1.0];
-        same(parallel_rectangles([unit, unit], [unit, unit], 0.1), opposed_rectangles(1.0, 1.0, 0.1));
+        same(
+            parallel_rectangles([unit, unit], [unit, unit], 0.1),
+            opposed_rectangles(1.0, 1.0, 0.1),
+        );
         let (floor, wall) = ([[0.0, 4.0], [0.0, 4.0]], [[0.0, 3.0], [0.0, 4.0]]);
         same(perpendicular_rectangles(floor, wall), adjacent_rectangles(4.0, 3.0, 4.0));
     }

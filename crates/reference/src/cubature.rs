@@ -79,8 +79,7 @@ pub(crate) fn integrate(
     tolerance: Tolerance,
     f: impl Fn(usize, DVec3) -> f64,
 ) -> Estimate {
-    let mut cells: BinaryHeap<Cell> =
-        parts.into_iter().map(|part| Cell::new(part, &f)).collect();
+    let mut cells: BinaryHeap<Cell> = parts.into_iter().map(|part| Cell::new(part, &f)).collect();
     let mut sum: Estimate = cells.iter().map(|cell| cell.estimate).sum();
     let most = MOST_CELLS + cells.len();
     while !tolerance.allows(sum) && cells.len() < most {

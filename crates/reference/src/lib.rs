@@ -4,14 +4,23 @@
 //! Knows nothing of processors, messages or time, nor of files.
 
 pub mod closed_form;
+mod conjugate;
 mod cubature;
+mod dense;
 mod element;
 mod gauss;
 mod objects;
 mod pair;
+pub mod parallel;
+mod patches;
+mod rays;
 mod ring;
+mod sampling;
 
 pub use cubature::{Estimate, Tolerance};
+pub use dense::{Dense, Solution};
 pub use element::element_to_polygon;
 pub use objects::Objects;
 pub use pair::{Pair, Surface};
+pub use patches::Patches;
+pub use rays::ObjectRays;

@@ -27,6 +27,9 @@ pub struct Pair {
     from: Vec<Ring>,
     normal: DVec3,
     to: Vec<Ring>,
+    /// All of the second, for what is quickly seen not to stand before it.
+    target: Ring,
+    /// The largest first: it may hide all.
     blockers: Vec<Blocker>,
 }
 
@@ -34,6 +37,7 @@ pub struct Pair {
 struct Blocker {
     corners: Ring,
     plane: Plane,
+    area: f64,
 }
 
 impl Surface {
@@ -77,13 +81,12 @@ impl Pair {
             return None;
         }
         let between = |polygon: &u32| *polygon != from.polygon && *polygon != to.polygon;
-        let blocker = |polygon: u32| {
-            let face = &scene.polygons[polygon as usize];
-            Blocker::new(scene.corners(face).collect(), face.plane, from, to, scene.tolerance())
-        };
-        let blockers =
+        let blocker = |polygon| Blocker::new(scene, polygon, from, to);
+        let mut blockers: Vec<Blocker> =
             (0..scene.polygons.len() as u32).filter(between).filter_map(blocker).collect();
-        Some(Pair { from: source, normal: from.plane.normal, to: target, blockers })
+        blockers.sort_by(|a, b| b.area.total_cmp(&a.area));
+        let (normal, all) = (from.plane.normal, to.corners.clone());
+        Some(Pair { from: source, normal, to: target, target: all, blockers })
     }
 
     /// The form factor from an element of the first surface to what it sees of the second, exact to
@@ -91,8 +94,15 @@ impl Pair {
     pub fn from_element(&self, point: DVec3) -> f64 {
         let seen = |ring: &Ring| ring.iter().map(|&p| p - point).collect::<Ring>();
         let mut pieces: Vec<Ring> = self.to.iter().map(seen).collect();
+        let sides = if self.blockers.is_empty() { Vec::new() } else { sides(&self.target, point) };
         for blocker in &self.blockers {
-            pieces = blocker.shade(pieces, point);
+            if pieces.is_empty() {
+                return 0.0;
+            }
+            let beside = |side: &DVec3| blocker.corners.iter().all(|&p| side.dot(p - point) <= 0.0);
+            if !sides.iter().any(beside) {
+                pieces = blocker.shade(pieces, point);
+            }
         }
         pieces.iter().map(|piece| contour(self.normal, piece)).sum()
     }
@@ -118,13 +128,9 @@ impl Pair {
 
 impl Blocker {
     /// None for a polygon that cannot stand between the two surfaces.
-    fn new(
-        corners: Ring,
-        plane: Plane,
-        from: &Surface,
-        to: &Surface,
-        tolerance: f64,
-    ) -> Option<Blocker> {
+    fn new(scene: &Scene, polygon: u32, from: &Surface, to: &Surface) -> Option<Blocker> {
+        let Surface { corners, plane, .. } = Surface::of_polygon(scene, polygon);
+        let tolerance = scene.tolerance();
         // Its plane must part them.
         let reach = |surface: &Surface, side: f64| {
             surface.corners.iter().any(|&p| side * height(&plane, p) > tolerance)
@@ -135,7 +141,9 @@ impl Blocker {
             return None;
         }
         let corners = above(&above(&corners, |p| from.height(p)), |p| to.height(p));
-        (!corners.is_empty() && !outside(&corners, from, to)).then_some(Blocker { corners, plane })
+        let area = fan(&corners).map(|[a, b, c]| (b - a).cross(c - a).length()).sum();
+        let possible = !corners.is_empty() && !outside(&corners, from, to);
+        possible.then_some(Blocker { corners, plane, area })
     }
 
     /// What is left of pieces, given as seen from `point`, outside the shadow that light at `point`
@@ -145,13 +153,16 @@ impl Blocker {
         if side == 0.0 {
             return pieces;
         }
-        let n = self.corners.len();
-        let planes: Vec<DVec3> = (0..n)
-            .map(|i| (self.corners[(i + 1) % n] - point).cross(self.corners[i] - point))
-            .map(|normal| normal * side.signum())
-            .collect();
-        cut_out(pieces, n, |i, p| planes[i].dot(p))
+        let sides = sides(&self.corners, point);
+        cut_out(pieces, sides.len(), |i, p| side.signum() * sides[i].dot(p))
     }
+}
+
+/// Normals of the planes through a point and each edge of a ring: inwards where the point is before
+/// the ring's front.
+fn sides(ring: &[DVec3], point: DVec3) -> Vec<DVec3> {
+    let next = ring.iter().cycle().skip(1);
+    ring.iter().zip(next).map(|(&a, &b)| (b - point).cross(a - point)).collect()
 }
 
 fn height(plane: &Plane, point: DVec3) -> f64 {

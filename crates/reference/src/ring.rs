@@ -40,9 +40,14 @@ pub(crate) fn cut_out(
     sides: usize,
     height: impl Fn(usize, DVec3) -> f64,
 ) -> Vec<Ring> {
+    let beside =
+        |piece: &Ring| (0..sides).any(|side| piece.iter().all(|&p| height(side, p) <= 0.0));
+    if pieces.iter().all(beside) {
+        return pieces;
+    }
     let mut left = Vec::with_capacity(pieces.len() + sides);
     for piece in pieces {
-        if (0..sides).any(|side| piece.iter().all(|&p| height(side, p) <= 0.0)) {
+        if beside(&piece) {
             left.push(piece);
             continue;
         }
@@ -59,6 +64,6 @@ pub(crate) fn cut_out(
 }
 
 /// The triangles of a fan over a ring.
-pub(crate) fn fan(ring: &[DVec3]) -> impl Iterator<Item = [DVec3; 3]> + '_ {
+pub(crate) fn fan(ring: &[DVec3]) -> impl Iterator<Item = [DVec3; 3]> + Clone + '_ {
     ring.windows(2).skip(1).map(|edge| [ring[0], edge[0], edge[1]])
 }

@@ -39,7 +39,8 @@ fn rectangles() {
         let others = quads.iter().map(|&points| quad(points, 1));
         std::iter::once(quad(floor, 0)).chain(others).collect::<Vec<_>>()
     };
-    let opposed = |z: f64| floor_and(&[[[0.0, 0.0, z], [0.0, 1.0, z], [1.0, 1.0, z], [1.0, 0.0, z]]]);
+    let opposed =
+        |z: f64| floor_and(&[[[0.0, 0.0, z], [0.0, 1.0, z], [1.0, 1.0, z], [1.0, 0.0, z]]]);
     holds(&opposed(1.0), opposed_rectangles(1.0, 1.0, 1.0), 1e-10);
     holds(&opposed(0.1), opposed_rectangles(1.0, 1.0, 0.1), 1e-10);
     let aside = [[1.0, 0.0, 1.0], [1.0, 1.0, 1.0], [2.0, 1.0, 1.0], [2.0, 0.0, 1.0]];
@@ -60,7 +61,8 @@ fn discs() {
     let error = |edges: u32| {
         let ring = |z: f64, turn: f64| {
             let corner = |i: u32| {
-                let (sin, cos) = (turn * std::f64::consts::TAU * f64::from(i) / f64::from(edges)).sin_cos();
+                let (sin, cos) =
+                    (turn * std::f64::consts::TAU * f64::from(i) / f64::from(edges)).sin_cos();
                 DVec3::new(cos, sin, z)
             };
             (0..edges).map(corner).collect()
