@@ -55,7 +55,8 @@ enum Format {
     Text,
 }
 
-fn tolerance(text: &str) -> Result<f64, String> {
+/// A tolerance that arithmetic can reach.
+pub fn tolerance(text: &str) -> Result<f64, String> {
     let value = text.parse().ok().filter(|value| (1e-12..=0.1).contains(value));
     value.ok_or_else(|| "expected a number from 1e-12 to 0.1".to_owned())
 }

@@ -6,6 +6,7 @@ mod bench_rays;
 mod check;
 mod exit;
 mod formfactors;
+mod make_reference;
 mod plot;
 mod progress;
 mod run;
@@ -41,6 +42,8 @@ enum Command {
     Scene(SceneCommand),
     /// Find the form factors between the objects of any scene.
     Formfactors(formfactors::Arguments),
+    /// Solve a scene as exactly as can be, and store the answer for others to be held against.
+    Reference(make_reference::Arguments),
     /// Measure how fast this host is.
     #[command(subcommand)]
     Bench(BenchCommand),
@@ -70,6 +73,7 @@ fn main() -> ExitCode {
         Command::Scene(SceneCommand::Make(arguments)) => scene_make::run(&arguments),
         Command::Scene(SceneCommand::Show(arguments)) => scene_show::run(&arguments),
         Command::Formfactors(arguments) => formfactors::run(&arguments),
+        Command::Reference(arguments) => make_reference::run(&arguments),
         Command::Bench(BenchCommand::Rays(arguments)) => bench_rays::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
     };

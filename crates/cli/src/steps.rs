@@ -22,6 +22,12 @@ impl Steps {
         self.0.inc(1);
     }
 
+    /// So many were done before.
+    pub fn skip(&self, steps: u32) {
+        self.0.inc(u64::from(steps));
+        self.0.reset_eta();
+    }
+
     /// Takes the bar away.
     pub fn end(&self) {
         self.0.finish_and_clear();

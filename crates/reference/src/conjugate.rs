@@ -58,7 +58,7 @@ pub(crate) fn solve(
         product(&diagonal, p).iter().zip(reflected).map(|(own, other)| own - other).collect()
     };
     let start = gather(&vec![0.0; areas.len()]);
-    let h = conjugate_gradients(apply, &diagonal, product(reflectance, gathered), start);
+    let h = conjugate_gradients(apply, &diagonal, &product(reflectance, gathered), start);
     let better = gather(&h);
     // Gathering draws any two light fields together by at least this.
     let rows = exchange.times(reflectance);
@@ -76,13 +76,13 @@ pub(crate) fn solve(
 fn conjugate_gradients(
     apply: impl Fn(&[f64]) -> Vec<f64>,
     diagonal: &[f64],
-    right: Vec<f64>,
+    right: &[f64],
     mut x: Vec<f64>,
 ) -> Vec<f64> {
     let scaled = |r: &[f64]| -> Vec<f64> {
         r.iter().zip(diagonal).map(|(r, d)| if *d > 0.0 { r / d } else { 0.0 }).collect()
     };
-    let goal = f64::EPSILON * f64::EPSILON * dot(&right, &scaled(&right));
+    let goal = f64::EPSILON * f64::EPSILON * dot(right, &scaled(right));
     let mut r: Vec<f64> = right.iter().zip(apply(&x)).map(|(right, left)| right - left).collect();
     let mut z = scaled(&r);
     let mut p = z.clone();

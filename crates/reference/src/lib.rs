@@ -13,9 +13,11 @@ mod objects;
 mod pair;
 pub mod parallel;
 mod patches;
+mod paths;
 mod rays;
 mod ring;
 mod sampling;
+mod stored;
 
 pub use cubature::{Estimate, Tolerance};
 pub use dense::{Dense, Solution};
@@ -23,4 +25,6 @@ pub use element::element_to_polygon;
 pub use objects::Objects;
 pub use pair::{Pair, Surface};
 pub use patches::Patches;
+pub use paths::{Paths, Problem, Received};
 pub use rays::ObjectRays;
+pub use stored::{Method, Reference, Subject};

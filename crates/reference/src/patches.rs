@@ -6,6 +6,7 @@ use sha2::{Digest, Sha256};
 use crate::pair::Surface;
 
 /// What a solution on patches needs to know of them, in the environment's order.
+#[derive(Clone)]
 pub struct Patches {
     /// Shapes; a patch without area has no corners.
     pub surfaces: Vec<Surface>,
