@@ -5,7 +5,7 @@ use radiosity::{Plane, Scene};
 
 use crate::cubature::{Estimate, Part, Tolerance, integrate, quarters};
 use crate::element::contour;
-use crate::ring::{Ring, above, cut_out, fan};
+use crate::ring::{Ring, above, cut_out, fan, seen_from, sides, without_repeats};
 
 /// A convex part of a scene's polygon.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,8 +27,6 @@ pub struct Pair {
     from: Vec<Ring>,
     normal: DVec3,
     to: Vec<Ring>,
-    /// All of the second, for what is quickly seen not to stand before it.
-    target: Ring,
     /// The largest first: it may hide all.
     blockers: Vec<Blocker>,
 }
@@ -62,11 +60,12 @@ impl Surface {
             let alike = cover.plane.normal.dot(self.plane.normal) > 0.0
                 && scene.corners(cover).all(|p| self.height(p).abs() <= tolerance);
             if alike {
-                let corners: Ring = scene.corners(cover).collect();
-                parts = cut_out(parts, corners.len(), |side, p| {
-                    let (a, b) = (corners[side], corners[(side + 1) % corners.len()]);
-                    cover.plane.normal.dot((b - a).cross(p - a))
-                });
+                // Anywhere before them will do to look from.
+                let eye = self.corners[0] + self.plane.normal;
+                let cover = seen_from(eye, &scene.corners(cover).collect::<Ring>());
+                let seen = parts.iter().map(|part| seen_from(eye, part)).collect();
+                let left = cut_out(seen, &cover, &sides(&cover));
+                parts = left.iter().map(|part| seen_from(-eye, part)).collect();
             }
         }
         parts
@@ -85,24 +84,19 @@ impl Pair {
         let mut blockers: Vec<Blocker> =
             (0..scene.polygons.len() as u32).filter(between).filter_map(blocker).collect();
         blockers.sort_by(|a, b| b.area.total_cmp(&a.area));
-        let (normal, all) = (from.plane.normal, to.corners.clone());
-        Some(Pair { from: source, normal, to: target, target: all, blockers })
+        Some(Pair { from: source, normal: from.plane.normal, to: target, blockers })
     }
 
     /// The form factor from an element of the first surface to what it sees of the second, exact to
     /// rounding: the corner-to-corner shadows of all that stands between are cut out.
     pub fn from_element(&self, point: DVec3) -> f64 {
-        let seen = |ring: &Ring| ring.iter().map(|&p| p - point).collect::<Ring>();
+        let seen = |ring: &Ring| seen_from(point, ring);
         let mut pieces: Vec<Ring> = self.to.iter().map(seen).collect();
-        let sides = if self.blockers.is_empty() { Vec::new() } else { sides(&self.target, point) };
         for blocker in &self.blockers {
             if pieces.is_empty() {
                 return 0.0;
             }
-            let beside = |side: &DVec3| blocker.corners.iter().all(|&p| side.dot(p - point) <= 0.0);
-            if !sides.iter().any(beside) {
-                pieces = blocker.shade(pieces, point);
-            }
+            pieces = blocker.shade(pieces, point);
         }
         pieces.iter().map(|piece| contour(self.normal, piece)).sum()
     }
@@ -141,6 +135,7 @@ impl Blocker {
             return None;
         }
         let corners = above(&above(&corners, |p| from.height(p)), |p| to.height(p));
+        let corners = without_repeats(corners, tolerance);
         let area = fan(&corners).map(|[a, b, c]| (b - a).cross(c - a).length()).sum();
         let possible = !corners.is_empty() && !outside(&corners, from, to);
         possible.then_some(Blocker { corners, plane, area })
@@ -153,16 +148,10 @@ impl Blocker {
         if side == 0.0 {
             return pieces;
         }
-        let sides = sides(&self.corners, point);
-        cut_out(pieces, sides.len(), |i, p| side.signum() * sides[i].dot(p))
+        let corners = seen_from(point, &self.corners);
+        let inwards: Vec<DVec3> = sides(&corners).iter().map(|s| s * side.signum()).collect();
+        cut_out(pieces, &corners, &inwards)
     }
-}
-
-/// Normals of the planes through a point and each edge of a ring: inwards where the point is before
-/// the ring's front.
-fn sides(ring: &[DVec3], point: DVec3) -> Vec<DVec3> {
-    let next = ring.iter().cycle().skip(1);
-    ring.iter().zip(next).map(|(&a, &b)| (b - point).cross(a - point)).collect()
 }
 
 fn height(plane: &Plane, point: DVec3) -> f64 {

@@ -33,27 +33,25 @@ pub(crate) fn above(ring: &[DVec3], height: impl Fn(DVec3) -> f64) -> Ring {
     above
 }
 
-/// What is left of `pieces` outside a convex region, where no height is negative; `height(i, point)`
-/// is the height over its side `i`.
-pub(crate) fn cut_out(
-    pieces: Vec<Ring>,
-    sides: usize,
-    height: impl Fn(usize, DVec3) -> f64,
-) -> Vec<Ring> {
+/// What of `pieces` the origin sees beside a convex polygon: all of them, and the polygon, are given as
+/// seen from there; the pieces show their fronts, and the polygon's sides, as [`sides`] has them, point
+/// inwards.
+pub(crate) fn cut_out(pieces: Vec<Ring>, polygon: &[DVec3], inwards: &[DVec3]) -> Vec<Ring> {
+    // Two convex polygons that do not overlap lie on two sides of an edge of one of them.
     let beside =
-        |piece: &Ring| (0..sides).any(|side| piece.iter().all(|&p| height(side, p) <= 0.0));
+        |piece: &Ring| part(inwards, polygon, piece) || part(&sides(piece), piece, polygon);
     if pieces.iter().all(beside) {
         return pieces;
     }
-    let mut left = Vec::with_capacity(pieces.len() + sides);
+    let mut left = Vec::with_capacity(pieces.len() + inwards.len());
     for piece in pieces {
         if beside(&piece) {
             left.push(piece);
             continue;
         }
         let mut inside = piece;
-        for side in 0..sides {
-            let [kept, outside] = split(&inside, |p| height(side, p));
+        for side in inwards {
+            let [kept, outside] = split(&inside, |p| side.dot(p));
             if !outside.is_empty() {
                 left.push(outside);
             }
@@ -61,6 +59,37 @@ pub(crate) fn cut_out(
         }
     }
     left
+}
+
+/// Whether one of the planes has a ring on its upper side and another on its lower. That the first is
+/// must be seen: the plane of an edge without length may lie anywhere.
+fn part(planes: &[DVec3], upper: &[DVec3], lower: &[DVec3]) -> bool {
+    planes.iter().any(|plane| {
+        let slack = 1e-12 * plane.length();
+        lower.iter().all(|p| plane.dot(*p) <= 0.0)
+            && upper.iter().all(|p| plane.dot(*p) >= -slack * p.length())
+            && slack > 0.0
+    })
+}
+
+/// A ring without corners that all but repeat the one before.
+pub(crate) fn without_repeats(mut ring: Ring, tolerance: f64) -> Ring {
+    ring.dedup_by(|next, before| next.distance(*before) <= tolerance);
+    while ring.len() > 1 && ring[0].distance(ring[ring.len() - 1]) <= tolerance {
+        ring.pop();
+    }
+    if ring.len() < 3 { Vec::new() } else { ring }
+}
+
+/// Normals of the planes through the origin and each edge of a ring: inwards if it shows its front.
+pub(crate) fn sides(ring: &[DVec3]) -> Vec<DVec3> {
+    let next = ring.iter().cycle().skip(1);
+    ring.iter().zip(next).map(|(&a, &b)| b.cross(a)).collect()
+}
+
+/// A ring as seen from a point.
+pub(crate) fn seen_from(point: DVec3, ring: &[DVec3]) -> Ring {
+    ring.iter().map(|&p| p - point).collect()
 }
 
 /// The triangles of a fan over a ring.

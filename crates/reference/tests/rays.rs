@@ -46,12 +46,22 @@ fn by_rays(
     found
 }
 
-/// Energy that goes to the wrong patch in an empty room of 4 × 4 × 3 m, patches of half a metre or
-/// less, over forty sources: it falls as N^−0.79 or faster, and is 0.5 % or less at 176².
+/// Energy that goes to the wrong patch in an empty room of 4 × 4 × 3 m, 320 patches of half a metre,
+/// over forty sources: it falls as N^−0.79 or faster, and is at most 0.5 % at 176².
 #[test]
 fn energy_is_misdirected_less_and_less() {
-    let (space, environment) = whole(scene(&room([4.0, 4.0, 3.0])), 0.5);
+    // Walls of 2 m and of 1 m, for patches come by halving.
+    let mut faces = room([4.0, 4.0, 3.0]);
+    for wall in faces.split_off(2) {
+        for [low, high] in [[0.0, 2.0], [2.0, 3.0]] {
+            let mut part = wall.clone();
+            part.points.iter_mut().for_each(|p| p.z = if p.z == 0.0 { low } else { high });
+            faces.push(part);
+        }
+    }
+    let (space, environment) = whole(scene(&faces), 0.5);
     let patches = &environment.patches;
+    assert_eq!(patches.len(), 320);
     let outlines: Vec<Vec<DVec3>> =
         (0..patches.len() as u32).map(|patch| environment.outline(&space, patch)).collect();
     let sources: Vec<(u32, DVec3, Vec<f64>)> = (0..40)
@@ -71,7 +81,7 @@ fn energy_is_misdirected_less_and_less() {
         sources.iter().map(of).sum::<f64>() / sources.len() as f64
     });
     assert!(order(misdirected) >= 0.79, "{} {misdirected:?}", order(misdirected));
-    assert!(misdirected[5] < 6e-3, "{misdirected:?}");
+    assert!(misdirected[5] <= 5e-3, "{misdirected:?}");
 }
 
 /// From object 0, one polygon, to object 1, one polygon: what has a closed form, and the value.
