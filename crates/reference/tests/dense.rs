@@ -154,12 +154,12 @@ fn rows_of_a_closed_scene_sum_to_one() {
         face.points.reverse();
     }
     faces.extend(pillar);
-    let (dense, solution) = solved(&faces, vec![grey(0.5, 1.0)], 1.0, 1e-5);
-    assert!(solution.error.iter().all(|error| error.x < 1e-4), "{:?}", solution.error);
+    let (dense, solution) = solved(&faces, vec![grey(0.5, 1.0)], 1.0, 1e-4);
+    assert!(solution.error.iter().all(|error| error.x < 1e-3), "{:?}", solution.error);
     let patches = dense.patches();
     // The floor goes on under the pillar, where it sees nothing but the pillar's foot.
     for from in (0..patches.count()).filter(|&i| patches.surfaces[i].plane.normal.z == 0.0) {
         let sum: f64 = (0..patches.count()).map(|to| dense.form_factor(from, to)).sum();
-        assert!((sum - 1.0).abs() < 2e-5, "{sum} {:?}", patches.surfaces[from]);
+        assert!((sum - 1.0).abs() < 2e-4, "{sum} {:?}", patches.surfaces[from]);
     }
 }
