@@ -1,7 +1,7 @@
 //! Two convex polygons that may see each other.
 
 use radiosity::glam::DVec3;
-use radiosity::{Plane, Scene};
+use radiosity::{Bounds, Plane, Scene};
 
 use crate::cubature::{Estimate, Part, Tolerance, integrate, quarters};
 use crate::element::contour;
@@ -88,7 +88,7 @@ impl Pair {
     }
 
     /// The form factor from an element of the first surface to what it sees of the second, exact to
-    /// rounding: the corner-to-corner shadows of all that stands between are cut out.
+    /// rounding: the shadows of all that stands between are cut out.
     pub fn from_element(&self, point: DVec3) -> f64 {
         let seen = |ring: &Ring| seen_from(point, ring);
         let mut pieces: Vec<Ring> = self.to.iter().map(seen).collect();
@@ -160,8 +160,7 @@ fn height(plane: &Plane, point: DVec3) -> f64 {
 
 /// Whether corners all lie beyond the box around two surfaces, on one side of it.
 fn outside(corners: &[DVec3], from: &Surface, to: &Surface) -> bool {
-    let around = |points: &mut dyn Iterator<Item = DVec3>| radiosity::Bounds::of(points);
-    let both = around(&mut from.corners.iter().chain(&to.corners).copied());
-    let own = around(&mut corners.iter().copied());
+    let both = Bounds::of(from.corners.iter().chain(&to.corners).copied());
+    let own = Bounds::of(corners.iter().copied());
     (own.min.cmpgt(both.max) | own.max.cmplt(both.min)).any()
 }

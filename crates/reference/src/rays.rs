@@ -19,6 +19,7 @@ pub struct ObjectRays<'a> {
     /// Each polygon one patch.
     environment: LocalEnvironment,
     hemisphere: Hemisphere,
+    /// Of each set.
     points: u32,
     seed: u64,
 }
@@ -42,13 +43,13 @@ impl<'a> ObjectRays<'a> {
         seed: u64,
     ) -> Result<ObjectRays<'a>, HemisphereError> {
         let size = PatchSize { reflector: f64::INFINITY, emitter: f64::INFINITY };
-        let sets = rays.div_ceil(u64::from(PIXELS * SETS)).min(u64::from(u32::MAX / SETS));
+        let points = rays.div_ceil(u64::from(PIXELS * SETS)).min(u64::from(u32::MAX));
         Ok(ObjectRays {
             objects,
             space,
             environment: LocalEnvironment::new(space, space.grid.whole(), size),
             hemisphere: Hemisphere::new(HemisphereKind::Fibonacci, PIXELS, true)?,
-            points: sets as u32,
+            points: points as u32,
             seed,
         })
     }

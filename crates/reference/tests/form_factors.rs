@@ -88,8 +88,7 @@ fn obstructed_squares() {
     holds(&faces, 0.149_868_671_8, 1e-8);
 }
 
-/// What a wall with a hole lets through, by what it does not cover: each of the four parts of the
-/// wall blocks its own part of the view.
+/// A table in a room: form factors from anything to everything sum to 1.
 #[test]
 fn closed_rooms_see_only_themselves() {
     let mut faces = room([4.0, 3.0, 2.5]);
@@ -109,4 +108,20 @@ fn closed_rooms_see_only_themselves() {
         let sum: reference::Estimate = row.sum();
         assert!((sum.value - 1.0).abs() <= sum.error, "{}: {sum:?}", objects.name(from));
     }
+}
+
+/// Where two polygons of one plane overlap, the second is not there, as for rays.
+#[test]
+fn what_is_covered_is_seen_once() {
+    let square = |low: f64, high: f64, z: f64| {
+        [[low, 0.0, z], [high, 0.0, z], [high, 1.0, z], [low, 1.0, z]]
+    };
+    let mut lamp = square(0.0, 1.0, 1.0);
+    lamp.reverse();
+    let (first, second) = (square(0.0, 1.0, 0.0), square(0.5, 1.5, 0.0));
+    let scene = scene(&[quad(lamp, 0), quad(first, 1), quad(second, 2)]);
+    let [there, _] = Objects::new(&scene).exact(0, 2, 1e-10);
+    let unit = [0.0, 1.0];
+    let exact = parallel_rectangles([unit, unit], [[1.0, 1.5], unit], 1.0);
+    assert!((there.value - exact).abs() < 1e-10, "{there:?} {exact}");
 }
