@@ -2,29 +2,30 @@
 
 use glam::DVec3;
 
-use crate::clip::{clip_to_box, clip_to_slab};
-use crate::environment::LocalEnvironment;
+use crate::clip::{area_and_centroid, clip_to_box, clip_to_slab};
+use crate::environment::{LocalEnvironment, Patch};
 use crate::space::Space;
 
 impl LocalEnvironment {
     /// Corners of a patch, counter-clockwise seen from the front, metres: its slot's part of its
     /// polygon in this environment. None for a patch without area.
     pub fn outline(&self, space: &Space, patch: u32) -> Vec<DVec3> {
-        let patch = self.patches[patch as usize];
-        let Some(piece) = self.piece(patch.polygon).filter(|_| patch.area > 0.0) else {
-            return Vec::new();
-        };
+        let Patch { area, polygon, .. } = self.patches[patch as usize];
+        let Some(piece) = self.piece(polygon).filter(|_| area > 0.0) else { return Vec::new() };
         let piece = &self.pieces[piece as usize];
-        let polygon = &space.scene.polygons[patch.polygon as usize];
+        let polygon = &space.scene.polygons[polygon as usize];
         let corners: Vec<DVec3> = space.scene.corners(polygon).collect();
-        let mut outline = clip_to_box(&corners, &space.grid.bounds(&self.block));
-        for (along, start, n) in [(piece.u, piece.u0, piece.nu), (piece.v, piece.v0, piece.nv)] {
-            if n > 1 {
-                let slot = (patch.centre.dot(along) - start).floor() + start;
-                outline = clip_to_slab(&outline, along, slot, slot + 1.0);
-            }
-        }
-        outline
+        let all = clip_to_box(&corners, &space.grid.bounds(&self.block));
+        let part = |slot: u32| {
+            let (i, j) = (f64::from(slot % piece.nu), f64::from(slot / piece.nu));
+            let row = clip_to_slab(&all, piece.v, piece.v0 + j, piece.v0 + j + 1.0);
+            clip_to_slab(&row, piece.u, piece.u0 + i, piece.u0 + i + 1.0)
+        };
+        // Slots outside the polygon name a patch too, the nearest: not theirs is the area.
+        let slots = 0..piece.nu * piece.nv;
+        let own = slots.filter(|slot| self.slots[(piece.first_slot + slot) as usize] == patch);
+        let off = |outline: &Vec<DVec3>| (area_and_centroid(outline).0 - area).abs();
+        own.map(part).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or_default()
     }
 }
 
@@ -58,7 +59,7 @@ mod tests {
             for (number, patch) in (0..).zip(&environment.patches) {
                 let (area, centre) = area_and_centroid(&environment.outline(&space, number));
                 assert!((area - patch.area).abs() < 1e-12, "{area} {patch:?}");
-                assert!(patch.area == 0.0 || centre.distance(patch.centre) < 1e-9, "{patch:?}");
+                assert!(patch.area < 1e-12 || centre.distance(patch.centre) < 1e-9, "{patch:?}");
             }
         }
     }

@@ -23,14 +23,21 @@ impl Patches {
     pub fn new(space: &Space, environment: &LocalEnvironment) -> Patches {
         let polygon = |patch: &radiosity::Patch| &space.scene.polygons[patch.polygon as usize];
         let patches = || environment.patches.iter();
+        // What is smaller than a point counts for nothing: rounding alone would decide what it sees.
+        let least = space.scene.tolerance().powi(2);
+        let area = |patch: &radiosity::Patch| if patch.area > least { patch.area } else { 0.0 };
         let surface = |(number, patch): (u32, &radiosity::Patch)| Surface {
-            corners: environment.outline(space, number),
+            corners: if area(patch) > 0.0 {
+                environment.outline(space, number)
+            } else {
+                Vec::new()
+            },
             plane: polygon(patch).plane,
             polygon: patch.polygon,
         };
         Patches {
             surfaces: (0..).zip(patches()).map(surface).collect(),
-            areas: patches().map(|patch| patch.area).collect(),
+            areas: patches().map(area).collect(),
             reflectance: patches().map(|p| space.scene.material(polygon(p)).reflectance).collect(),
             emission: patches().map(|p| space.scene.material(polygon(p)).emission).collect(),
         }
