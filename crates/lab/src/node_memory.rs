@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use virtwall::{Outcome, Thing};
 
 use crate::experiment::Experiment;
-use crate::quantity::Size;
+use crate::quantity::{Period, Size};
 
 /// What an experiment says of the nodes' memory in place of the machine's file.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
@@ -20,9 +20,9 @@ pub struct NodeMemoryFields {
     /// What a patch takes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub patch: Option<Size>,
-    /// What one page fault brings in.
+    /// Time of a page fault until its first byte comes.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub burst: Option<Size>,
+    pub fault_time: Option<Period>,
 }
 
 impl NodeMemoryFields {
@@ -33,13 +33,15 @@ impl NodeMemoryFields {
 
     fn lay_over(&self, memory: &mut NodeMemory) {
         let bytes = |size: &Size| size.value().round() as u64;
-        for (field, size) in
-            [(&mut memory.available, &self.available), (&mut memory.burst, &self.burst)]
-        {
-            *field = size.as_ref().map_or(*field, bytes);
+        if let Some(available) = &self.available {
+            memory.available = bytes(available);
         }
-        let patch = self.patch.as_ref().map(bytes);
-        memory.sizes.extend(patch.map(|bytes| (Thing::Patch.name().to_owned(), bytes)));
+        if let Some(patch) = &self.patch {
+            memory.sizes.insert(Thing::Patch.name().to_owned(), bytes(patch));
+        }
+        if let Some(time) = &self.fault_time {
+            memory.fault_time = desim::Duration::from_seconds_f64(time.value());
+        }
     }
 }
 
@@ -55,12 +57,9 @@ pub struct NodeMemoryFigures {
 /// The machine as a point of an experiment has it.
 pub fn machine<'a>(machine: &'a Machine, point: &Experiment) -> Cow<'a, Machine> {
     let mut machine = Cow::Borrowed(machine);
-    if machine.node_memory.is_some() && !point.node_memory.is_empty() {
-        machine
-            .to_mut()
-            .node_memory
-            .iter_mut()
-            .for_each(|memory| point.node_memory.lay_over(memory));
+    if !point.node_memory.is_empty() {
+        let memory = &mut machine.to_mut().node_memory;
+        memory.iter_mut().for_each(|memory| point.node_memory.lay_over(memory));
     }
     machine
 }

@@ -156,7 +156,7 @@ impl Machine {
 /// The machine, if its nodes have room on its network and that is fully described.
 fn validate(file: MachineFile) -> Result<Machine, MachineFault> {
     let (shape, hop_time) = shape(&file)?;
-    let node_memory = file.node_memory.map(node_memory).transpose()?;
+    let node_memory = file.node_memory.as_ref().map(node_memory).transpose()?;
     let (title, processor) = (file.title, processor(file.processor));
     let (rung, parameters) = network(&file.network, hop_time)?;
     let published = Published {
@@ -280,7 +280,7 @@ fn processor(file: ProcessorFile) -> Processor {
 }
 
 /// The memory of a node, if the operating system leaves some.
-fn node_memory(file: NodeMemoryFile) -> Result<NodeMemory, MachineFault> {
+fn node_memory(file: &NodeMemoryFile) -> Result<NodeMemory, MachineFault> {
     let bytes = |size: &Quantity<Bytes>| size.si.round() as u64;
     let (installed, system) = (bytes(&file.installed.value), bytes(&file.system.value));
     if system >= installed {

@@ -118,6 +118,7 @@ impl ComputeNode {
     async fn choose_best_source(&mut self, process: &impl Process) -> Option<Parcel> {
         let rules = &self.shared.rules;
         let received = self.queue.best(rules.selection);
+        // Choice C25: the list of queued sources is searched through, and each lies in its own pages.
         let searched = self.region.changed().filter(|_| self.selecting).map(footprint::environment);
         process.touch(searched.chain(self.queue.turns().map(footprint::queued))).await;
         let (local, mut scan) = if self.selecting {

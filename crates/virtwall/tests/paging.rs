@@ -6,7 +6,7 @@ mod common;
 
 use std::sync::Arc;
 
-use common::{grey, problem, rules, same, scene, sides, two_rooms_cut};
+use common::{grey, problem, rules, same, scene, sides};
 use desim::{Duration, Time};
 use multicomputer::Machine;
 use virtwall::{KeptShots, Outcome, Problem, Run, RunError, Thing, simulate};
@@ -23,15 +23,22 @@ fn paragon(available: Option<u64>) -> Machine {
     machine
 }
 
-fn outcome(problem: &Arc<Problem>, processors: usize, machine: &Machine) -> Outcome {
-    let run = Run {
-        problem: Arc::clone(problem),
-        processors,
+fn run(problem: Problem) -> Run {
+    Run {
+        problem: Arc::new(problem),
+        processors: 1,
         rules: rules(),
         kept: Arc::new(KeptShots::new(1 << 30)),
         on_shot: Arc::new(|| ()),
-    };
-    simulate(&run, machine).unwrap()
+    }
+}
+
+fn two_rooms(processors: usize) -> Run {
+    Run { processors, ..run(problem(common::two_rooms(), [8, 4, 4], [4, 2, 1], 1_024, 0.5)) }
+}
+
+fn on(run: &Run, available: Option<u64>) -> Outcome {
+    simulate(run, &paragon(available)).unwrap()
 }
 
 fn paging(outcome: &Outcome) -> Duration {
@@ -44,13 +51,13 @@ fn high_water(outcome: &Outcome) -> u64 {
 
 #[test]
 fn enough_memory_costs_nothing() {
-    let problem = two_rooms_cut([4, 2, 1]);
     for processors in [1, 3, 8] {
-        let without = outcome(&problem, processors, &paragon(None));
+        let run = two_rooms(processors);
+        let without = on(&run, None);
         assert!(without.nodes.iter().all(|node| node.memory_high_water.is_none()));
-        let mut ample = outcome(&problem, processors, &paragon(Some(1 << 30)));
+        let mut ample = on(&run, Some(1 << 30));
         let full = high_water(&ample);
-        let mut just = outcome(&problem, processors, &paragon(Some(full)));
+        let mut just = on(&run, Some(full));
         assert_eq!(high_water(&just), full);
         for node in ample.nodes.iter_mut().chain(&mut just.nodes) {
             node.memory_high_water = None;
@@ -63,11 +70,10 @@ fn enough_memory_costs_nothing() {
 /// On one processor nothing but the time changes, so that every run uses the same in the same order.
 #[test]
 fn too_little_memory_costs_the_more_the_less_there_is() {
-    let problem = two_rooms_cut([4, 2, 1]);
-    let full = high_water(&outcome(&problem, 1, &paragon(Some(1 << 30))));
+    let run = two_rooms(1);
+    let full = high_water(&on(&run, Some(1 << 30)));
     let steps = (0..=40).map(|i| full - i * full / 40);
-    let outcomes: Vec<Outcome> =
-        steps.map(|available| outcome(&problem, 1, &paragon(Some(available)))).collect();
+    let outcomes: Vec<Outcome> = steps.map(|available| on(&run, Some(available))).collect();
     assert!(outcomes.is_sorted_by_key(paging) && outcomes.is_sorted_by_key(|o| o.time));
     assert_eq!(paging(&outcomes[0]), Duration::ZERO);
     assert!(paging(&outcomes[20]) > paging(&outcomes[2]) && paging(&outcomes[2]) > Duration::ZERO);
@@ -80,9 +86,8 @@ fn too_little_memory_costs_the_more_the_less_there_is() {
 
 #[test]
 fn paging_is_the_same_every_time() {
-    let problem = two_rooms_cut([4, 2, 1]);
-    let once = || outcome(&problem, 2, &paragon(Some(1_700_000)));
-    let (one, other) = (once(), once());
+    let run = two_rooms(2);
+    let [one, other] = [(), ()].map(|()| on(&run, Some(1_700_000)));
     assert!(paging(&one) > Duration::ZERO);
     same(&one, &other);
 }
@@ -93,8 +98,7 @@ fn paging_is_the_same_every_time() {
 fn the_high_water_mark_is_what_there_was() {
     let walls = sides([0.0; 3], [2.0, 1.0, 1.0], [0, 0, 0, 0, 0, 1], true);
     let scene = scene(&walls, vec![grey(0.0, 0.0), grey(0.0, 1.0)]);
-    let problem = Arc::new(problem(scene, [2, 1, 1], [2, 1, 1], 64, 1.5));
-    let outcome = outcome(&problem, 1, &paragon(Some(1 << 30)));
+    let outcome = on(&run(problem(scene, [2, 1, 1], [2, 1, 1], 64, 1.5)), Some(1 << 30));
     assert_eq!((outcome.counts.local_shots, outcome.counts.received_shots), (1, 1));
     let half = 8 + 5 * 8 + 5 * 264 + 5 * 300;
     let program = 512 * 1024 + 64 * 24;
@@ -106,12 +110,5 @@ fn the_high_water_mark_is_what_there_was() {
 fn a_thing_without_a_size_is_refused() {
     let mut machine = paragon(Some(1 << 30));
     machine.node_memory.as_mut().unwrap().sizes.remove("cell");
-    let run = Run {
-        problem: two_rooms_cut([1, 1, 1]),
-        processors: 1,
-        rules: rules(),
-        kept: Arc::new(KeptShots::new(0)),
-        on_shot: Arc::new(|| ()),
-    };
-    assert!(matches!(simulate(&run, &machine), Err(RunError::Size(Thing::Cell))));
+    assert!(matches!(simulate(&two_rooms(1), &machine), Err(RunError::Size(Thing::Cell))));
 }
