@@ -52,24 +52,32 @@ pub const HOST_TIMES: [&str; 3] = ["cpu_s", "set_up_s", "clock_s"];
 pub const OPERATIONS: [&str; 2] = ["operations", "operations."];
 
 /// All columns that can be drawn: those of a sweep, each count of operations, the host's.
-pub fn drawable(axes: &[Axis], of_the_network: bool) -> Vec<String> {
+pub fn drawable(axes: &[Axis], further: impl Iterator<Item = &'static str>) -> Vec<String> {
     let counts = engine::operations().map(|count| OPERATIONS[1].to_owned() + count);
     let host = HOST_TIMES.iter().map(|time| HOST.to_owned() + time);
-    names(axes, of_the_network).into_iter().chain(counts).chain(host).collect()
+    names(axes, further).into_iter().chain(counts).chain(host).collect()
 }
 
 /// The columns after these, where results tell of the network.
 const OF_THE_NETWORK: [&str; 5] =
     ["network_used", "network_why", "difference_from_finest", "busiest_link", "blocked_s"];
 
+/// The columns after these, where nodes have memory.
+const OF_MEMORY: [&str; 2] = ["memory_high_water", "paging_s"];
+
+/// The columns that only some results have.
+pub fn further(of_the_network: bool, of_memory: bool) -> impl Iterator<Item = &'static str> {
+    let network = OF_THE_NETWORK.into_iter().filter(move |_| of_the_network);
+    network.chain(OF_MEMORY.into_iter().filter(move |_| of_memory))
+}
+
 /// All columns of a sweep, in order: the first ones, swept fields not among them, the last ones, and
-/// those of the network if they are asked for.
-pub fn names(axes: &[Axis], of_the_network: bool) -> Vec<String> {
+/// those that only some results have.
+pub fn names(axes: &[Axis], further: impl Iterator<Item = &'static str>) -> Vec<String> {
     let swept = axes.iter().map(|axis| axis.place.to_string());
     let swept = swept.filter(|name| !FIRST.contains(&name.as_str()));
     let first = FIRST.iter().map(|&name| name.to_owned());
-    let network = OF_THE_NETWORK.iter().filter(|_| of_the_network);
-    let last = LAST.iter().chain(network).map(|&name| name.to_owned());
+    let last = LAST.into_iter().chain(further).map(str::to_owned);
     first.chain(swept).chain(last).collect()
 }
 
@@ -77,11 +85,14 @@ pub fn names(axes: &[Axis], of_the_network: bool) -> Vec<String> {
 pub fn figure(figures: &Figures, column: &str) -> Option<String> {
     let energy = &figures.energy;
     let network = figures.network.as_ref();
+    let memory = figures.memory.as_ref();
     Some(match column {
         "network_used" => network.map_or(String::new(), |network| network.rung.clone()),
         "network_why" => network.map_or(String::new(), |network| network.why.clone()),
         "busiest_link" => optional(network.and_then(|network| network.busiest_link), 6),
         "blocked_s" => optional(network.map(|network| network.blocked_s), 9),
+        "memory_high_water" => memory.map_or(String::new(), |memory| memory.high_water.to_string()),
+        "paging_s" => optional(memory.map(|memory| memory.paging_s), 6),
         "time_s" => optional(figures.time_s, 6),
         "local_shots" => figures.local_shots.to_string(),
         "received_shots" => figures.received_shots.to_string(),

@@ -6,13 +6,16 @@ use std::sync::Arc;
 use multicomputer::Machine;
 use radiosity::{Hemisphere, HemisphereKind, Operation, PatchSize, Rgb};
 use serde::Serialize;
-use virtwall::{Ending, KeptShots, Outcome, Problem, ProblemError, ProblemOptions, Rules, Run};
+use virtwall::{
+    Ending, KeptShots, Outcome, Problem, ProblemError, ProblemOptions, Rules, Run, Thing,
+};
 
 use crate::experiment::{self as fields, Experiment};
 use crate::fault::Fault;
 use crate::figures::{Energy, Figures};
 use crate::file;
 use crate::network;
+use crate::node_memory;
 use crate::settings::{Settings, WrongField};
 
 /// What the programs run on.
@@ -40,9 +43,20 @@ pub fn load_machine(path: &Path) -> Result<Machine, Fault> {
     let machine = Machine::from_json(&file::read_text(path)?, &file).map_err(Fault::complete)?;
     let priced = |operation: &&Operation| machine.processor.price(operation.name()).is_some();
     match Operation::ALL.iter().find(|operation| !priced(operation)) {
-        None => Ok(machine),
+        None => sized(machine, file),
         Some(operation) => {
             let message = format!("no price of \"{}\"; expected one of each", operation.name());
+            Err(Fault::of_file(file, message))
+        }
+    }
+}
+
+/// Makes sure that a machine with memory gives everything a size.
+fn sized(machine: Machine, file: String) -> Result<Machine, Fault> {
+    match machine.node_memory.as_ref().and_then(Thing::without_size) {
+        None => Ok(machine),
+        Some(thing) => {
+            let message = format!("no size of \"{}\"; expected one of each", thing.name());
             Err(Fault::of_file(file, message))
         }
     }
@@ -105,7 +119,7 @@ pub fn carry_out(
     machine: &Machine,
 ) -> Result<Figures, String> {
     let outcome = match on {
-        On::Simulation => network::simulate(run, machine, point),
+        On::Simulation => network::simulate(run, &node_memory::machine(machine, point), point),
         On::Threads => virtwall::run_on_threads(run).map(|outcome| (outcome, None)),
     };
     let (outcome, network) = outcome.map_err(|error| error.to_string())?;
@@ -142,6 +156,7 @@ fn figures(problem: &Problem, outcome: &Outcome, virtual_time: bool) -> Figures 
         },
         patches: problem.patches() as u64,
         network: None,
+        memory: node_memory::figures(outcome),
         work: outcome.work.counts().map(|(op, n)| (op.name().to_owned(), n)).collect(),
     }
 }

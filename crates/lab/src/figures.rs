@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::network::NetworkFigures;
+use crate::node_memory::NodeMemoryFigures;
 
 /// The figures of one run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -39,6 +40,9 @@ pub struct Figures {
     /// What it tells of its network, if that was asked for.
     #[serde(default)]
     pub network: Option<NetworkFigures>,
+    /// What it tells of its nodes' memory, where that is modelled.
+    #[serde(default)]
+    pub memory: Option<NodeMemoryFigures>,
 }
 
 /// Where the energy is at the end of a run, in shares of the emitted energy, all colours together.

@@ -26,6 +26,7 @@ mod json;
 mod measure;
 mod network;
 mod networks;
+mod node_memory;
 mod open_machine;
 mod open_scene;
 mod place;

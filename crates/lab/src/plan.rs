@@ -8,6 +8,7 @@ use multicomputer::Machine;
 use serde_json::Value;
 use virtwall::Problem;
 
+use crate::columns;
 use crate::comparison::Comparison;
 use crate::digest::FileDigest;
 use crate::experiment::{Experiment, Plot};
@@ -43,6 +44,16 @@ pub struct Plan {
 }
 
 impl Plan {
+    /// Whether its results tell of the nodes' memory.
+    pub fn tells_of_memory(&self) -> bool {
+        self.machines.iter().any(|equipment| equipment.machine.node_memory.is_some())
+    }
+
+    /// The columns that only some results have.
+    pub fn further_columns(&self) -> impl Iterator<Item = &'static str> {
+        columns::further(self.tells_of_the_network(), self.tells_of_memory())
+    }
+
     /// Whether its results tell of the network.
     pub fn tells_of_the_network(&self) -> bool {
         let machine = |run: &Run| &self.machines[run.machine].machine;

@@ -134,6 +134,11 @@ impl Planner<'_> {
             );
             return Err(self.fault(point, "processors", message));
         }
+        if self.machines[machine].machine.node_memory.is_none() && !typed.node_memory.is_empty() {
+            let message = format!("the memory of \"{}\" is not modelled", typed.machine);
+            let message = message + "; expected a machine whose file has \"node_memory\"";
+            return Err(self.fault(point, "node_memory", message));
+        }
         network::check(&self.machines[machine].machine, typed.network)
             .map_err(|error| self.fault(point, "network", error.to_string()))?;
         let problem = self.problem(point, &typed)?;
@@ -206,7 +211,7 @@ impl Planner<'_> {
 /// Refuses plots of columns that there will not be, or with names that lead elsewhere.
 fn check_plots(plan: &Plan, document: &Document) -> Result<(), Fault> {
     let plots: &[Plot] = &plan.plots;
-    let known = columns::drawable(&plan.axes, plan.tells_of_the_network());
+    let known = columns::drawable(&plan.axes, plan.further_columns());
     for (i, plot) in plots.iter().enumerate() {
         let place = Place::of("plots").item(i);
         let [x, y] = [&plot.x, &plot.y].map(|text| Measure::of(text));

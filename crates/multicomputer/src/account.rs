@@ -2,7 +2,7 @@
 
 use desim::{Duration, Time};
 
-/// What a node did with its time, and its traffic. The four spans sum exactly to the node's life:
+/// What a node did with its time, and its traffic. The five spans sum exactly to the node's life:
 /// from the start until it finished, or until the account was drawn up.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct NodeAccount {
@@ -12,6 +12,8 @@ pub struct NodeAccount {
     pub send_overhead: Duration,
     /// Time given to taking messages in.
     pub receive_overhead: Duration,
+    /// Time spent waiting for pages that were not in memory.
+    pub paging: Duration,
     /// The rest.
     pub idle: Duration,
     /// Messages sent.
@@ -20,14 +22,16 @@ pub struct NodeAccount {
     pub bytes_sent: u64,
     /// Messages taken out of the mailbox.
     pub messages_received: u64,
+    /// The most bytes that program and message buffers have held, where memory is modelled.
+    pub memory_high_water: Option<u64>,
     /// When the node finished, if it said so.
     pub finished: Option<Time>,
 }
 
 impl NodeAccount {
-    /// The node's life: all four spans.
+    /// The node's life: all five spans.
     pub fn life(&self) -> Duration {
-        self.compute + self.send_overhead + self.receive_overhead + self.idle
+        self.compute + self.send_overhead + self.receive_overhead + self.paging + self.idle
     }
 }
 
@@ -37,6 +41,7 @@ pub(crate) enum Activity {
     Compute,
     Send,
     Receive,
+    Paging,
     #[default]
     Idle,
 }
@@ -87,6 +92,7 @@ impl Ledger {
                 Activity::Compute => &mut self.account.compute,
                 Activity::Send => &mut self.account.send_overhead,
                 Activity::Receive => &mut self.account.receive_overhead,
+                Activity::Paging => &mut self.account.paging,
                 Activity::Idle => &mut self.account.idle,
             } += spent;
         }

@@ -42,6 +42,9 @@ pub(crate) struct MachineFile {
     pub(crate) service_nodes: Sourced<NonZeroU16>,
     /// The processor of every node.
     pub(crate) processor: ProcessorFile,
+    /// The memory of every node; without it memory costs nothing and never fills.
+    #[serde(default)]
+    pub(crate) node_memory: Option<NodeMemoryFile>,
     /// How messages travel.
     pub(crate) network: NetworkFile,
     /// What has been measured on the real machine, to stand beside what is simulated.
@@ -90,6 +93,29 @@ pub(crate) struct ProcessorFile {
     /// Cycles of each operation that the kernels count.
     #[serde(deserialize_with = "without_repetition")]
     pub(crate) operations: BTreeMap<String, Sourced<Quantity<Cycles>>>,
+}
+
+/// Memory of a node. What programs keep beyond its capacity is paged out, least recently used first,
+/// and costs time when it is used again: a fault a burst, and its bytes at the bandwidth.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "an object that describes memory")]
+pub(crate) struct NodeMemoryFile {
+    /// Memory of a node in all.
+    pub(crate) installed: Sourced<Quantity<Bytes>>,
+    /// What the operating system takes of it.
+    pub(crate) system: Sourced<Quantity<Bytes>>,
+    /// What is set aside for messages that have arrived and were not read; what exceeds it takes from
+    /// the program's share.
+    pub(crate) message_buffers: Sourced<Quantity<Bytes>>,
+    /// What one fault brings in.
+    pub(crate) burst: Sourced<Quantity<Bytes>>,
+    /// Time of a fault until its first byte comes.
+    pub(crate) fault_time: Sourced<Quantity<Time>>,
+    /// Bytes a second at which the others follow.
+    pub(crate) bandwidth: Sourced<Quantity<Bandwidth>>,
+    /// Bytes of each thing that programs keep.
+    #[serde(deserialize_with = "without_repetition")]
+    pub(crate) sizes: BTreeMap<String, Sourced<Quantity<Bytes>>>,
 }
 
 /// The network: which model of it tells when messages arrive, and what the models need to know.

@@ -5,7 +5,7 @@
 //! [`Multicomputer`] is such a machine running over [`desim`], whose processes each hold a
 //! [`Node`].
 //!
-//! Memory and disks would be further costs of a [`Node`].
+//! Disks would be a further cost of a [`Node`].
 
 mod account;
 mod agenda;
@@ -14,6 +14,7 @@ mod fault;
 mod file;
 mod kernels;
 mod machine;
+mod memory;
 mod multicomputer;
 mod network;
 mod node;
@@ -32,6 +33,7 @@ pub use fault::MachineFault;
 pub use file::machine_schema;
 pub use kernels::{KernelError, exchange, hot_spot, ping_pong};
 pub use machine::{Machine, MachineError, Published};
+pub use memory::{NodeMemory, Segment};
 pub use multicomputer::Multicomputer;
 pub use network::{
     Arrival, Channel, ChannelUse, Deadlock, Delivery, Flit, Foretold, Formula, Ideal,

@@ -3,9 +3,11 @@
 use thiserror::Error;
 
 use crate::fault::{MachineFault, read};
-use crate::file::{LinksFile, LogGpFile, MachineFile, NetworkFile, ProcessorFile};
+use crate::file::{LinksFile, LogGpFile, MachineFile, NetworkFile, NodeMemoryFile, ProcessorFile};
+use crate::memory::NodeMemory;
 use crate::network::{LinkParameters, LogGpParameters, Network, NetworkParameters, Rung};
 use crate::processor::Processor;
+use crate::sourced::{Bytes, Quantity};
 use crate::topology::{Place, Shape, Topology};
 
 /// Largest network, in places: beyond it a file can only be a slip.
@@ -15,6 +17,8 @@ const LONGEST_FLIT: f64 = 1e9;
 
 /// Most virtual channels a link: real routers have a handful.
 const MOST_VIRTUAL_CHANNELS: u8 = 16;
+/// Largest thing that a program keeps many of, bytes: sums of them stay countable.
+const LARGEST_THING: u64 = 1_000_000_000;
 
 /// A distributed-memory machine.
 #[derive(Clone, Debug)]
@@ -23,6 +27,8 @@ pub struct Machine {
     pub title: String,
     /// The processor of every node.
     pub processor: Processor,
+    /// The memory of every node; none where it is not modelled.
+    pub node_memory: Option<NodeMemory>,
     /// What its network needs to know on any rung.
     pub parameters: NetworkParameters,
     /// The rung of its network that the file chooses; none if that is left to be found out.
@@ -150,6 +156,7 @@ impl Machine {
 /// The machine, if its nodes have room on its network and that is fully described.
 fn validate(file: MachineFile) -> Result<Machine, MachineFault> {
     let (shape, hop_time) = shape(&file)?;
+    let node_memory = file.node_memory.as_ref().map(node_memory).transpose()?;
     let (title, processor) = (file.title, processor(file.processor));
     let (rung, parameters) = network(&file.network, hop_time)?;
     let published = Published {
@@ -159,6 +166,7 @@ fn validate(file: MachineFile) -> Result<Machine, MachineFault> {
     Ok(Machine {
         title,
         processor,
+        node_memory,
         parameters,
         rung,
         published,
@@ -269,6 +277,34 @@ fn links(file: &LinksFile, software: &LogGpParameters) -> Result<LinkParameters,
 fn processor(file: ProcessorFile) -> Processor {
     let cycles = file.operations.into_iter().map(|(name, cycles)| (name, cycles.value.si));
     Processor { clock: file.clock.value.si, scale: file.scale.value.0, cycles: cycles.collect() }
+}
+
+/// The memory of a node, if the operating system leaves some.
+fn node_memory(file: &NodeMemoryFile) -> Result<NodeMemory, MachineFault> {
+    let bytes = |size: &Quantity<Bytes>| size.si.round() as u64;
+    let (installed, system) = (bytes(&file.installed.value), bytes(&file.system.value));
+    if system >= installed {
+        let message =
+            format!("found {system} B of {installed} B; expected less, so that some is left");
+        return refuse("node_memory.system.value", message);
+    }
+    let burst = bytes(&file.burst.value);
+    if burst == 0 {
+        return refuse("node_memory.burst.value", "found 0 B; expected at least 1 B");
+    }
+    if let Some((name, size)) = file.sizes.iter().find(|(_, s)| bytes(&s.value) > LARGEST_THING) {
+        let found = format!("found {} B; expected at most 1 GB", size.value.si);
+        return refuse(&format!("node_memory.sizes.{name}.value"), found);
+    }
+    let sizes = file.sizes.iter().map(|(name, size)| (name.clone(), bytes(&size.value)));
+    Ok(NodeMemory {
+        available: installed - system,
+        message_buffers: bytes(&file.message_buffers.value),
+        burst,
+        fault_time: file.fault_time.value.duration(),
+        bandwidth: file.bandwidth.value.si,
+        sizes: sizes.collect(),
+    })
 }
 
 fn loggp(file: &LogGpFile, hop_time: desim::Duration) -> LogGpParameters {

@@ -48,7 +48,7 @@ impl<M: 'static> Multicomputer<M> {
         let nodes = machine
             .places(compute_ranks)?
             .enumerate()
-            .map(|(rank, place)| NodeState::new(handle, rank, place))
+            .map(|(rank, place)| NodeState::new(handle, rank, place, machine.node_memory.as_ref()))
             .collect();
         Ok(Multicomputer(Rc::new_cyclic(|shared: &Weak<Shared<M>>| {
             let shared = shared.clone();
@@ -72,7 +72,7 @@ impl<M: 'static> Multicomputer<M> {
     /// Where every node's time has gone until now, in the order of ranks.
     pub fn accounts(&self) -> Vec<NodeAccount> {
         let now = self.0.handle.now();
-        self.0.nodes.iter().map(|node| node.ledger.borrow_mut().account(now)).collect()
+        self.0.nodes.iter().map(|node| node.account(now)).collect()
     }
 
     /// What each channel of the network has done until now.

@@ -1,13 +1,14 @@
 //! A node as the process that runs on it sees it: compute, send, receive, wait.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::VecDeque;
 use std::mem;
 use std::rc::Rc;
 
 use desim::{Alarm, Duration, Handle, Signal, Time};
 
-use crate::account::{Activity, Ledger};
+use crate::account::{Activity, Ledger, NodeAccount};
+use crate::memory::{NodeMemory, Residence, Segment};
 use crate::network::{Arrival, Deadlock, Message, Network};
 use crate::topology::Place;
 
@@ -78,7 +79,7 @@ impl<M> Shared<M> {
         }
         for arrival in arrived.drain(..) {
             if let Some((to, message)) = wires.take(arrival.message.id) {
-                self.nodes[to].arrive(message);
+                self.nodes[to].arrive(message, arrival.message.bytes);
             }
         }
         wires.arrived = arrived;
@@ -95,21 +96,48 @@ impl<M> Shared<M> {
 /// What a multicomputer keeps for a node.
 pub(crate) struct NodeState<M> {
     place: Place,
-    pub(crate) ledger: RefCell<Ledger>,
+    ledger: RefCell<Ledger>,
     /// Messages that have arrived and were not taken, in order of arrival.
     mailbox: RefCell<Vec<M>>,
+    /// Their bytes.
+    unread_bytes: Cell<u64>,
+    /// What its memory holds, where memory is modelled.
+    residence: Option<RefCell<Residence>>,
     mail: Signal,
 }
 
 impl<M> NodeState<M> {
-    pub(crate) fn new(handle: &Handle, rank: Rank, place: Place) -> NodeState<M> {
-        let mail = Signal::new(handle, format!("mail at node {rank}"));
-        NodeState { place, ledger: RefCell::default(), mailbox: RefCell::default(), mail }
+    pub(crate) fn new(
+        handle: &Handle,
+        rank: Rank,
+        place: Place,
+        memory: Option<&NodeMemory>,
+    ) -> NodeState<M> {
+        NodeState {
+            place,
+            ledger: RefCell::default(),
+            mailbox: RefCell::default(),
+            unread_bytes: Cell::new(0),
+            residence: memory.map(|memory| RefCell::new(Residence::new(memory))),
+            mail: Signal::new(handle, format!("mail at node {rank}")),
+        }
     }
 
-    fn arrive(&self, message: M) {
+    /// The node's account until `now`.
+    pub(crate) fn account(&self, now: Time) -> NodeAccount {
+        let memory_high_water = self.residence.as_ref().map(|r| r.borrow().high_water());
+        NodeAccount { memory_high_water, ..self.ledger.borrow_mut().account(now) }
+    }
+
+    fn arrive(&self, message: M, bytes: u64) {
         self.mailbox.borrow_mut().push(message);
+        self.set_unread(self.unread_bytes.get().saturating_add(bytes));
         self.mail.notify();
+    }
+
+    fn set_unread(&self, bytes: u64) {
+        self.unread_bytes.set(bytes);
+        self.residence.iter().for_each(|residence| residence.borrow_mut().set_unread(bytes));
     }
 }
 
@@ -162,6 +190,7 @@ impl<M: 'static> Node<M> {
     /// nothing has arrived.
     pub async fn received(&self) -> Vec<M> {
         let messages = mem::take(&mut *self.state().mailbox.borrow_mut());
+        self.state().set_unread(0);
         if !messages.is_empty() {
             let count = messages.len() as u64;
             let overhead = self.shared.wires.borrow().network.receive_overhead();
@@ -191,6 +220,31 @@ impl<M: 'static> Node<M> {
             }
         }
         true
+    }
+
+    /// The program makes something that it keeps in memory.
+    pub fn keep(&self, segment: Segment, bytes: u64) {
+        self.residence().for_each(|residence| residence.borrow_mut().keep(segment, bytes));
+    }
+
+    /// The program uses segments, one after the other. Where memory is modelled and one of them is
+    /// not resident, the processor waits until it is.
+    pub async fn touch(&self, segments: impl IntoIterator<Item = Segment>) {
+        let Some(residence) = self.residence().next() else { return };
+        let wait = |segment| residence.borrow_mut().touch(segment);
+        let span: Duration = segments.into_iter().map(wait).sum();
+        if span > Duration::ZERO {
+            self.busy(Activity::Paging, self.now() + span).await;
+        }
+    }
+
+    /// The program needs something no more that it kept in memory.
+    pub fn release(&self, segment: Segment) {
+        self.residence().for_each(|residence| residence.borrow_mut().release(segment));
+    }
+
+    fn residence(&self) -> impl Iterator<Item = &RefCell<Residence>> {
+        self.state().residence.iter()
     }
 
     /// The node's work is done: its account closes at the present time.

@@ -75,6 +75,10 @@ pub struct NodeReport {
     pub compute: Duration,
     /// Time in sending and receiving.
     pub overhead: Duration,
+    /// Time spent waiting for pages that were not in memory.
+    pub paging: Duration,
+    /// The most bytes that program and message buffers have held, where memory is modelled.
+    pub memory_high_water: Option<u64>,
     /// Time spent waiting until the node knew of the end.
     pub idle: Duration,
     /// Shots of its own patches.

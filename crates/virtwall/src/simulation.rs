@@ -4,10 +4,11 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use desim::{Duration, Simulation, Time};
-use multicomputer::{Machine, Multicomputer, Network, Node, Rank};
+use multicomputer::{Machine, Multicomputer, Network, Node, NodeMemory, Rank, Segment};
 use radiosity::{Operation, Work};
 
 use crate::compute_node::compute_node;
+use crate::footprint::{Footprint, Thing};
 use crate::outcome::{NodeReport, Outcome};
 use crate::process::Process;
 use crate::run::{Run, RunError};
@@ -36,6 +37,7 @@ impl Prices {
 struct SimulatedProcess {
     node: Node<Vec<u8>>,
     prices: Rc<Prices>,
+    memory: Option<Rc<NodeMemory>>,
 }
 
 impl Process for SimulatedProcess {
@@ -47,6 +49,20 @@ impl Process for SimulatedProcess {
         let (result, work) = job();
         self.node.compute(self.prices.time(&work)).await;
         result
+    }
+
+    fn keep(&self, segment: Segment, footprint: &Footprint) {
+        if let Some(memory) = &self.memory {
+            self.node.keep(segment, footprint.bytes(memory));
+        }
+    }
+
+    async fn touch(&self, segments: impl IntoIterator<Item = Segment>) {
+        self.node.touch(segments).await;
+    }
+
+    fn release(&self, segment: Segment) {
+        self.node.release(segment);
     }
 
     async fn send(&self, to: Rank, message: Vec<u8>) {
@@ -83,11 +99,19 @@ pub fn simulate_over(
 ) -> Result<Outcome, RunError> {
     let (nodes, collection) = run.prepare()?;
     let prices = Rc::new(Prices::of(machine)?);
+    let memory = machine.node_memory.as_ref();
+    if let Some(thing) = memory.and_then(Thing::without_size) {
+        return Err(RunError::Size(thing));
+    }
+    let memory = memory.cloned().map(Rc::new);
     let simulation = Simulation::new();
     let handle = simulation.handle();
     let multicomputer = Multicomputer::with_network(&handle, machine, run.processors, network)?;
-    let process =
-        |rank| SimulatedProcess { node: multicomputer.node(rank), prices: Rc::clone(&prices) };
+    let process = |rank| SimulatedProcess {
+        node: multicomputer.node(rank),
+        prices: Rc::clone(&prices),
+        memory: memory.clone(),
+    };
     let finished = Rc::new(RefCell::new(Vec::new()));
     for (rank, node) in nodes.into_iter().enumerate() {
         let (process, finished) = (process(rank), Rc::clone(&finished));
@@ -108,6 +132,8 @@ pub fn simulate_over(
         multicomputer.accounts().into_iter().take(nodes.len()).map(|account| NodeReport {
             compute: account.compute,
             overhead: account.send_overhead + account.receive_overhead,
+            paging: account.paging,
+            memory_high_water: account.memory_high_water,
             idle: account.idle,
             ..NodeReport::default()
         });
