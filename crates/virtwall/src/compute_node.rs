@@ -108,10 +108,12 @@ impl ComputeNode {
 
     /// What the initialisation has left in memory.
     fn settle(&self, process: &impl Process) {
-        for (number, footprint) in self.region.footprints() {
-            process.keep(footprint::environment(number), &footprint);
+        let problem = &self.shared.problem;
+        for (number, _) in self.region.lights() {
+            let footprint = || Footprint::of_environment(problem, number);
+            process.keep(footprint::environment(number), footprint);
         }
-        process.keep(footprint::PROGRAM, &Footprint::of_the_program(&self.shared.problem));
+        process.keep(footprint::PROGRAM, || Footprint::of_the_program(problem));
     }
 
     /// §4.2.2: the greatest source, from the region or from the queue.
@@ -236,7 +238,7 @@ impl ComputeNode {
     fn enqueue(&mut self, process: &impl Process, parcel: Parcel) {
         let footprint = Footprint::of_source(&parcel);
         match self.queue.push(parcel, self.shared.rules.merge_masks) {
-            Some(turn) => process.keep(footprint::queued(turn), &footprint),
+            Some(turn) => process.keep(footprint::queued(turn), || footprint),
             // Taken up by another parcel, and with it when that is shot.
             None => self.tally.parcels_taken += 1,
         }

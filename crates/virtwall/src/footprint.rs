@@ -1,7 +1,6 @@
 //! What a program of 1996 keeps in a node's memory, for a machine to size.
 
 use multicomputer::{NodeMemory, Segment};
-use radiosity::LocalEnvironment;
 
 use crate::message::Parcel;
 use crate::problem::Problem;
@@ -71,13 +70,14 @@ impl Footprint {
     }
 
     /// What is there once on each node: the program and its table of directions.
-    pub fn of_the_program(problem: &Problem) -> Footprint {
+    pub(crate) fn of_the_program(problem: &Problem) -> Footprint {
         let directions = problem.hemisphere.pixels() as usize;
         Footprint::default().with(Thing::Program, 1).with(Thing::Direction, directions)
     }
 
     /// An environment: its patches, its polygons, its part of the grid.
-    pub fn of_environment(problem: &Problem, environment: &LocalEnvironment) -> Footprint {
+    pub(crate) fn of_environment(problem: &Problem, number: u32) -> Footprint {
+        let environment = &problem.environments[number as usize];
         let grid = &problem.space.grid;
         let lists = environment.block.cells().map(|cell| grid.polygons(cell).len());
         let (cells, entries) = lists.fold((0, 0), |(cells, all), list| (cells + 1, all + list));

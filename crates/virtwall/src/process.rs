@@ -17,7 +17,7 @@ pub trait Process {
 
     /// The program makes something that it keeps in memory. As with the two that follow, a process
     /// whose memory is not modelled takes no notice.
-    fn keep(&self, _segment: Segment, _footprint: &Footprint) {}
+    fn keep(&self, _segment: Segment, _footprint: impl FnOnce() -> Footprint) {}
 
     /// The program uses what it keeps; costs this node the paging of what is not in memory.
     async fn touch(&self, _segments: impl IntoIterator<Item = Segment>) {}

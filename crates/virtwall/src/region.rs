@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use radiosity::{Greatest, Light, LocalEnvironment, Mask, Operation, Rgb, Shot, Work};
 
-use crate::footprint::Footprint;
 use crate::message::{Parcel, PatchUpdate};
 use crate::problem::Problem;
 use crate::rules::Selection;
@@ -161,14 +160,6 @@ impl Region {
         let sum =
             |held: &mut Holding| *held.unshot.get_or_insert_with(|| held.light.unshot_power());
         self.holdings.iter_mut().map(sum).sum()
-    }
-
-    /// What each environment takes in memory, with its number.
-    pub(crate) fn footprints(&self) -> impl Iterator<Item = (u32, Footprint)> {
-        let problem = &*self.problem;
-        let footprint =
-            |number| Footprint::of_environment(problem, &problem.environments[number as usize]);
-        self.holdings.iter().map(move |h| (h.environment, footprint(h.environment)))
     }
 
     /// The light of each environment, with its number.

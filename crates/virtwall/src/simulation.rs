@@ -51,9 +51,9 @@ impl Process for SimulatedProcess {
         result
     }
 
-    fn keep(&self, segment: Segment, footprint: &Footprint) {
+    fn keep(&self, segment: Segment, footprint: impl FnOnce() -> Footprint) {
         if let Some(memory) = &self.memory {
-            self.node.keep(segment, footprint.bytes(memory));
+            self.node.keep(segment, footprint().bytes(memory));
         }
     }
 
