@@ -1,6 +1,5 @@
 //! The one door to the simulator: beyond it nothing here knows how a kernel or a link works.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use multicomputer::Machine;
@@ -11,7 +10,8 @@ use virtwall::{Ending, KeptShots, Outcome, Problem, ProblemError, ProblemOptions
 use crate::experiment::{self as fields, Experiment};
 use crate::fault::Fault;
 use crate::figures::{Energy, Figures};
-use crate::file;
+use crate::find::Found;
+use crate::machine_file::MachineFile;
 use crate::network;
 use crate::settings::{Settings, WrongField};
 
@@ -35,15 +35,15 @@ pub fn operations() -> impl Iterator<Item = &'static str> {
 ///
 /// # Errors
 /// What is wrong with the file, and where.
-pub fn load_machine(path: &Path) -> Result<Machine, Fault> {
-    let file = path.display().to_string();
-    let machine = Machine::from_json(&file::read_text(path)?, &file).map_err(Fault::complete)?;
-    let priced = |operation: &&Operation| machine.processor.price(operation.name()).is_some();
+pub fn load_machine(found: &Found) -> Result<MachineFile, Fault> {
+    let file = MachineFile::load(found)?;
+    let processor = &file.machine.processor;
+    let priced = |operation: &&Operation| processor.price(operation.name()).is_some();
     match Operation::ALL.iter().find(|operation| !priced(operation)) {
-        None => Ok(machine),
+        None => Ok(file),
         Some(operation) => {
             let message = format!("no price of \"{}\"; expected one of each", operation.name());
-            Err(Fault::of_file(file, message))
+            Err(Fault::of_file(found.path.display(), message))
         }
     }
 }

@@ -23,6 +23,7 @@ mod host_clock;
 mod host_memory;
 mod host_times;
 mod json;
+mod machine_file;
 mod measure;
 mod network;
 mod networks;

@@ -80,8 +80,8 @@ pub struct Equipment {
     pub machine: Machine,
     /// Where its file is.
     pub path: PathBuf,
-    /// Its file.
-    pub digest: FileDigest,
+    /// Its file, and those that it extends.
+    pub digests: Vec<FileDigest>,
 }
 
 /// Which value a run has of each swept field but `field`.

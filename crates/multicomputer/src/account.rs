@@ -2,8 +2,8 @@
 
 use desim::{Duration, Time};
 
-/// What a node did with its time, and its traffic. The four spans sum exactly to the node's life:
-/// from the start until it finished, or until the account was drawn up.
+/// What a node did with its time, and its traffic. The spans up to `idle` sum exactly to the
+/// node's life: from the start until it finished, or until the account was drawn up.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct NodeAccount {
     /// Time in kernels.
@@ -12,22 +12,42 @@ pub struct NodeAccount {
     pub send_overhead: Duration,
     /// Time given to taking messages in.
     pub receive_overhead: Duration,
+    /// Time given to making packets.
+    pub packing: Duration,
+    /// Time given to copying messages that arrived with no receive posted.
+    pub copying: Duration,
+    /// Time spent waiting for room in receivers' buffers.
+    pub waiting_for_room: Duration,
     /// The rest.
     pub idle: Duration,
+    /// Time in which the message coprocessor was busy; it is no part of the processor's life.
+    pub coprocessor: Duration,
     /// Messages sent.
     pub messages_sent: u64,
     /// Bytes in them.
     pub bytes_sent: u64,
     /// Messages taken out of the mailbox.
     pub messages_received: u64,
+    /// Those of them that arrived with no receive posted.
+    pub unposted_messages: u64,
+    /// Messages sent that had to wait for room in buffers.
+    pub held_messages: u64,
+    /// The most bytes that were ever taken of its buffers, if they are finite.
+    pub buffer_bytes_most: u64,
     /// When the node finished, if it said so.
     pub finished: Option<Time>,
 }
 
 impl NodeAccount {
-    /// The node's life: all four spans.
+    /// Time given to messages: the node's life but for computing and idling.
+    pub fn overhead(&self) -> Duration {
+        let software = self.send_overhead + self.receive_overhead + self.packing + self.copying;
+        software + self.waiting_for_room
+    }
+
+    /// The node's life: all spans.
     pub fn life(&self) -> Duration {
-        self.compute + self.send_overhead + self.receive_overhead + self.idle
+        self.compute + self.overhead() + self.idle
     }
 }
 
@@ -37,6 +57,9 @@ pub(crate) enum Activity {
     Compute,
     Send,
     Receive,
+    Pack,
+    Copy,
+    WaitForRoom,
     #[default]
     Idle,
 }
@@ -63,9 +86,20 @@ impl Ledger {
         self.account.bytes_sent = self.account.bytes_sent.saturating_add(bytes);
     }
 
-    /// Messages are taken in.
-    pub(crate) fn received(&mut self, messages: u64) {
+    /// Messages are taken in, some of which arrived with no receive posted.
+    pub(crate) fn received(&mut self, messages: u64, unposted: u64) {
         self.account.messages_received += messages;
+        self.account.unposted_messages += unposted;
+    }
+
+    /// A message must wait for room.
+    pub(crate) fn held(&mut self) {
+        self.account.held_messages += 1;
+    }
+
+    /// The coprocessor was busy for a span.
+    pub(crate) fn coprocessor(&mut self, span: Duration) {
+        self.account.coprocessor += span;
     }
 
     /// The node's life ends. Only the first end counts.
@@ -87,6 +121,9 @@ impl Ledger {
                 Activity::Compute => &mut self.account.compute,
                 Activity::Send => &mut self.account.send_overhead,
                 Activity::Receive => &mut self.account.receive_overhead,
+                Activity::Pack => &mut self.account.packing,
+                Activity::Copy => &mut self.account.copying,
+                Activity::WaitForRoom => &mut self.account.waiting_for_room,
                 Activity::Idle => &mut self.account.idle,
             } += spent;
         }
