@@ -4,6 +4,7 @@ use serde_json::Value;
 
 use crate::engine;
 use crate::figures::Figures;
+use crate::message_layer;
 use crate::sweep::Axis;
 
 /// The first columns, always these, in this order.
@@ -52,24 +53,34 @@ pub const HOST_TIMES: [&str; 3] = ["cpu_s", "set_up_s", "clock_s"];
 pub const OPERATIONS: [&str; 2] = ["operations", "operations."];
 
 /// All columns that can be drawn: those of a sweep, each count of operations, the host's.
-pub fn drawable(axes: &[Axis], of_the_network: bool) -> Vec<String> {
+pub fn drawable(axes: &[Axis], also: Also) -> Vec<String> {
     let counts = engine::operations().map(|count| OPERATIONS[1].to_owned() + count);
     let host = HOST_TIMES.iter().map(|time| HOST.to_owned() + time);
-    names(axes, of_the_network).into_iter().chain(counts).chain(host).collect()
+    names(axes, also).into_iter().chain(counts).chain(host).collect()
 }
 
 /// The columns after these, where results tell of the network.
 const OF_THE_NETWORK: [&str; 5] =
     ["network_used", "network_why", "difference_from_finest", "busiest_link", "blocked_s"];
 
+/// What columns there are besides those of every sweep.
+#[derive(Clone, Copy, Debug)]
+pub struct Also {
+    /// Those of the network.
+    pub network: bool,
+    /// Those of the message layer.
+    pub message_layer: bool,
+}
+
 /// All columns of a sweep, in order: the first ones, swept fields not among them, the last ones, and
-/// those of the network if they are asked for.
-pub fn names(axes: &[Axis], of_the_network: bool) -> Vec<String> {
+/// those that are asked for.
+pub fn names(axes: &[Axis], also: Also) -> Vec<String> {
     let swept = axes.iter().map(|axis| axis.place.to_string());
     let swept = swept.filter(|name| !FIRST.contains(&name.as_str()));
     let first = FIRST.iter().map(|&name| name.to_owned());
-    let network = OF_THE_NETWORK.iter().filter(|_| of_the_network);
-    let last = LAST.iter().chain(network).map(|&name| name.to_owned());
+    let network = OF_THE_NETWORK.iter().filter(|_| also.network);
+    let layer = message_layer::COLUMNS.iter().filter(|_| also.message_layer);
+    let last = LAST.iter().chain(network).chain(layer).map(|&name| name.to_owned());
     first.chain(swept).chain(last).collect()
 }
 
@@ -103,7 +114,7 @@ pub fn figure(figures: &Figures, column: &str) -> Option<String> {
             let counts = figures.work.iter().map(|(name, count)| format!("{name}={count}"));
             counts.collect::<Vec<_>>().join(" ")
         }
-        _ => return None,
+        _ => return figures.message_layer.and_then(|layer| layer.cell(column)),
     })
 }
 

@@ -12,6 +12,7 @@ use crate::fault::Fault;
 use crate::figures::{Energy, Figures};
 use crate::find::Found;
 use crate::machine_file::MachineFile;
+use crate::message_layer::{self, MessageLayerFigures};
 use crate::network;
 use crate::settings::{Settings, WrongField};
 
@@ -109,7 +110,10 @@ pub fn carry_out(
         On::Threads => virtwall::run_on_threads(run).map(|outcome| (outcome, None)),
     };
     let (outcome, network) = outcome.map_err(|error| error.to_string())?;
-    Ok(Figures { network, ..figures(&run.problem, &outcome, on == On::Simulation) })
+    let tells = on == On::Simulation && message_layer::tells(machine);
+    let message_layer = tells.then(|| MessageLayerFigures::of(&outcome.layer()));
+    let figures = figures(&run.problem, &outcome, on == On::Simulation);
+    Ok(Figures { network, message_layer, ..figures })
 }
 
 /// The outcome's figures; times only if they are virtual.
@@ -142,6 +146,7 @@ fn figures(problem: &Problem, outcome: &Outcome, virtual_time: bool) -> Figures 
         },
         patches: problem.patches() as u64,
         network: None,
+        message_layer: None,
         work: outcome.work.counts().map(|(op, n)| (op.name().to_owned(), n)).collect(),
     }
 }

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::message_layer::MessageLayerFigures;
 use crate::network::NetworkFigures;
 
 /// The figures of one run.
@@ -39,6 +40,9 @@ pub struct Figures {
     /// What it tells of its network, if that was asked for.
     #[serde(default)]
     pub network: Option<NetworkFigures>,
+    /// What it tells of its machine's message layer, if that does anything.
+    #[serde(default)]
+    pub message_layer: Option<MessageLayerFigures>,
 }
 
 /// Where the energy is at the end of a run, in shares of the emitted energy, all colours together.

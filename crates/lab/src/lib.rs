@@ -25,6 +25,7 @@ mod host_times;
 mod json;
 mod machine_file;
 mod measure;
+mod message_layer;
 mod network;
 mod networks;
 mod open_machine;

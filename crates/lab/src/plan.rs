@@ -8,9 +8,11 @@ use multicomputer::Machine;
 use serde_json::Value;
 use virtwall::Problem;
 
+use crate::columns::Also;
 use crate::comparison::Comparison;
 use crate::digest::FileDigest;
 use crate::experiment::{Experiment, Plot};
+use crate::message_layer;
 use crate::network;
 use crate::place::Place;
 use crate::settings::Settings;
@@ -43,10 +45,13 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Whether its results tell of the network.
-    pub fn tells_of_the_network(&self) -> bool {
+    /// What its results tell of besides what all do.
+    pub fn also(&self) -> Also {
         let machine = |run: &Run| &self.machines[run.machine].machine;
-        self.runs.iter().any(|run| network::tells(machine(run), run.point.network))
+        Also {
+            network: self.runs.iter().any(|run| network::tells(machine(run), run.point.network)),
+            message_layer: self.runs.iter().any(|run| message_layer::tells(machine(run))),
+        }
     }
 }
 

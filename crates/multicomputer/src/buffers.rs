@@ -97,19 +97,16 @@ impl FullBuffers {
 
 impl fmt::Display for FullBuffers {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("deadlock by full buffers: ")?;
-        for (index, rank) in self.circle.iter().enumerate() {
-            let joint = if index == 0 { "node" } else { "which waits for that of node" };
-            match index {
-                0 => write!(f, "{joint} {rank}")?,
-                1 => write!(f, " waits for room in the buffers of node {rank}")?,
-                _ => write!(f, ", {joint} {rank}")?,
-            }
+        if let [rank] = self.circle[..] {
+            return write!(f, "deadlock by full buffers: node {rank} waits for room in its own");
         }
-        match self.circle[..] {
-            [_] => f.write_str(" waits for room in its own buffers"),
-            _ => f.write_str(", which waits for that of the first one"),
-        }
+        let ranks: Vec<String> = self.circle.iter().map(Rank::to_string).collect();
+        let ranks = ranks.join(", ");
+        write!(
+            f,
+            "deadlock by full buffers: each of the nodes {ranks} waits for room in those of the "
+        )?;
+        f.write_str("next, and the last in those of the first")
     }
 }
 

@@ -29,7 +29,7 @@ mod topology;
 mod trace;
 mod traffic;
 
-pub use account::NodeAccount;
+pub use account::{LayerAccount, NodeAccount};
 pub use auto::{Choice, choose};
 pub use buffers::{FullBuffers, Rank};
 pub use fault::MachineFault;

@@ -84,7 +84,9 @@ impl<M: 'static> Multicomputer<M> {
         let account = |node: &NodeState<M>| {
             let buffers = node.buffers.as_ref();
             let buffer_bytes_most = buffers.map_or(0, |buffers| buffers.borrow().most());
-            NodeAccount { buffer_bytes_most, ..node.ledger.borrow_mut().account(now) }
+            let mut account = node.ledger.borrow_mut().account(now);
+            account.layer.buffer_bytes_most = buffer_bytes_most;
+            account
         };
         self.0.nodes.iter().map(account).collect()
     }

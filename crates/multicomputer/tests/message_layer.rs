@@ -109,7 +109,7 @@ fn without_a_message_layer_nothing_is_added() {
     assert_eq!(ran.end(), plain());
     let reader = ran.account(1);
     assert_eq!(reader.overhead(), O);
-    assert_eq!((reader.unposted_messages, reader.buffer_bytes_most), (0, 0));
+    assert_eq!((reader.layer.unposted_messages, reader.layer.buffer_bytes_most), (0, 0));
 }
 
 #[test]
@@ -118,7 +118,7 @@ fn packets_take_the_sender_time_each() {
     let ran = run(&layer, |node| letters(node, 1, Duration::ZERO));
     // Three full packets and one that is not.
     assert_eq!(ran.end(), us(2) * 4 + plain());
-    assert_eq!((ran.account(0).packing, ran.account(0).send_overhead), (us(2) * 4, O));
+    assert_eq!((ran.account(0).layer.packing, ran.account(0).send_overhead), (us(2) * 4, O));
     assert_eq!(ran.account(1).overhead(), O);
     let empty = machine(&layer).message_layer.packing(0);
     assert_eq!(empty, us(2));
@@ -129,17 +129,17 @@ fn a_message_that_nobody_waits_for_is_copied() {
     let layer = json!({ "copy_bandwidth": sourced("50 MB/s") });
     // Waited for: no copy.
     let ran = run(&layer, |node| letters(node, 1, Duration::ZERO));
-    assert_eq!((ran.end(), ran.account(1).copying), (plain(), Duration::ZERO));
+    assert_eq!((ran.end(), ran.account(1).layer.copying), (plain(), Duration::ZERO));
     // Busy when it comes: 20 ns a byte.
     let ran = run(&layer, |node| letters(node, 1, us(100)));
     assert_eq!(ran.end(), us(100) + O + us(20));
     let reader = ran.account(1);
-    assert_eq!((reader.copying, reader.unposted_messages), (us(20), 1));
+    assert_eq!((reader.layer.copying, reader.layer.unposted_messages), (us(20), 1));
     assert_eq!(reader.life(), ran.end());
     // Three messages, 10 µs apart: the first is waited for, the second comes after its reading, the
     // third as well.
     let ran = run(&layer, |node| letters(node, 3, Duration::ZERO));
-    assert_eq!(ran.account(1).unposted_messages, 0);
+    assert_eq!(ran.account(1).layer.unposted_messages, 0);
 }
 
 #[test]
@@ -151,7 +151,7 @@ fn a_wait_that_is_given_up_posts_nothing() {
         }
         letters(node, 1, us(100)).await;
     });
-    assert_eq!(ran.account(1).unposted_messages, 1);
+    assert_eq!(ran.account(1).layer.unposted_messages, 1);
 }
 
 #[test]
@@ -171,8 +171,8 @@ fn a_coprocessor_overlaps_the_overheads_with_computation() {
     let with = run(&layer, busy);
     let (sender, reader) = (with.account(0), with.account(1));
     // Both are busy with the message for as long as it is handed over, and no longer.
-    assert_eq!((sender.send_overhead, sender.coprocessor), (us(1), O));
-    assert_eq!((reader.receive_overhead, reader.coprocessor), (us(1), O));
+    assert_eq!((sender.send_overhead, sender.layer.coprocessor), (us(1), O));
+    assert_eq!((reader.receive_overhead, reader.layer.coprocessor), (us(1), O));
     assert_eq!(with.end(), us(101));
     // Nothing to overlap with: the message takes longer.
     let ran = run(&layer, |node| letters(node, 1, Duration::ZERO));
@@ -187,8 +187,11 @@ fn a_coprocessor_does_one_thing_at_a_time() {
     });
     let ran = run(&layer, |node| letters(node, 3, Duration::ZERO));
     let each = us(2) * 4 + O;
-    assert_eq!(ran.account(0).coprocessor, each * 3);
-    assert_eq!((ran.account(0).send_overhead, ran.account(0).packing), (us(3), Duration::ZERO));
+    assert_eq!(ran.account(0).layer.coprocessor, each * 3);
+    assert_eq!(
+        (ran.account(0).send_overhead, ran.account(0).layer.packing),
+        (us(3), Duration::ZERO)
+    );
     // Three times from the first handover on; the last message's way; what its reader does.
     assert_eq!(ran.end(), us(1) + each * 3 + injection(1_000) + LATENCY + O + us(1));
 }
@@ -199,8 +202,8 @@ fn a_sender_waits_while_the_buffers_are_full() {
     let ran = run(&layer, |node| letters(node, 3, us(100)));
     let (sender, reader) = (ran.account(0), ran.account(1));
     // Two messages fill the buffers; the third leaves when they have been read.
-    assert_eq!(sender.waiting_for_room, us(100) + O * 2 - O * 2);
-    assert_eq!((sender.held_messages, reader.buffer_bytes_most), (1, 2_000));
+    assert_eq!(sender.layer.waiting_for_room, us(100) + O * 2 - O * 2);
+    assert_eq!((sender.layer.held_messages, reader.layer.buffer_bytes_most), (1, 2_000));
     assert_eq!(ran.end(), us(100) + O * 2 + plain());
     // The coprocessor's messages wait without it, and so does the processor.
     let layer = json!({
@@ -209,7 +212,7 @@ fn a_sender_waits_while_the_buffers_are_full() {
     });
     let ran = run(&layer, |node| letters(node, 3, us(100)));
     let sender = ran.account(0);
-    assert_eq!((sender.waiting_for_room, sender.held_messages), (Duration::ZERO, 1));
+    assert_eq!((sender.layer.waiting_for_room, sender.layer.held_messages), (Duration::ZERO, 1));
     assert_eq!(ran.end(), us(100) + us(2) + plain() + us(1));
 }
 
@@ -217,8 +220,8 @@ fn a_sender_waits_while_the_buffers_are_full() {
 fn a_message_longer_than_the_buffers_has_them_to_itself() {
     let layer = json!({ "buffers": sourced("10 B") });
     let ran = run(&layer, |node| letters(node, 2, us(100)));
-    assert_eq!(ran.account(0).held_messages, 1);
-    assert_eq!(ran.account(1).buffer_bytes_most, 1_000);
+    assert_eq!(ran.account(0).layer.held_messages, 1);
+    assert_eq!(ran.account(1).layer.buffer_bytes_most, 1_000);
 }
 
 #[test]
@@ -234,7 +237,7 @@ fn a_process_that_has_finished_holds_nobody_up() {
             _ => {}
         }
     });
-    assert_eq!(ran.account(0).waiting_for_room, us(50) - O);
+    assert_eq!(ran.account(0).layer.waiting_for_room, us(50) - O);
 }
 
 /// Each of the first `count` nodes sends two messages to the next before it reads any.
@@ -259,8 +262,8 @@ fn processes_that_fill_each_other_s_buffers_are_told_so() {
     let stalled = ran.end.unwrap_err();
     assert_eq!(
         stalled.cause.unwrap(),
-        "deadlock by full buffers: node 2 waits for room in the buffers of node 0, which waits for \
-         that of node 1, which waits for that of the first one"
+        "deadlock by full buffers: each of the nodes 2, 0, 1 waits for room in those of the next, \
+         and the last in those of the first"
     );
     let own = run(&json!({ "buffers": sourced("1.5 KB") }), |node| ring(node, 1));
     assert_eq!(own.nodes.full_buffers().unwrap().circle, [0]);
@@ -315,7 +318,7 @@ fn everything_at_once_loses_no_time_and_no_message() {
         assert_eq!(mine, &(0..20).collect::<Vec<_>>());
         assert_eq!(ran.account(rank).life(), end);
     }
-    assert!((0..4).any(|rank| ran.account(rank).copying > Duration::ZERO));
+    assert!((0..4).any(|rank| ran.account(rank).layer.copying > Duration::ZERO));
 }
 
 #[test]
