@@ -4,6 +4,7 @@ use serde_json::Value;
 
 use crate::engine;
 use crate::figures::Figures;
+use crate::message_layer;
 use crate::sweep::Axis;
 
 /// The first columns, always these, in this order.
@@ -52,10 +53,10 @@ pub const HOST_TIMES: [&str; 3] = ["cpu_s", "set_up_s", "clock_s"];
 pub const OPERATIONS: [&str; 2] = ["operations", "operations."];
 
 /// All columns that can be drawn: those of a sweep, each count of operations, the host's.
-pub fn drawable(axes: &[Axis], further: impl Iterator<Item = &'static str>) -> Vec<String> {
+pub fn drawable(axes: &[Axis], also: Also) -> Vec<String> {
     let counts = engine::operations().map(|count| OPERATIONS[1].to_owned() + count);
     let host = HOST_TIMES.iter().map(|time| HOST.to_owned() + time);
-    names(axes, further).into_iter().chain(counts).chain(host).collect()
+    names(axes, also).into_iter().chain(counts).chain(host).collect()
 }
 
 /// The columns after these, where results tell of the network.
@@ -65,19 +66,33 @@ const OF_THE_NETWORK: [&str; 5] =
 /// The columns after these, where nodes have memory.
 const OF_MEMORY: [&str; 2] = ["memory_high_water", "paging_s"];
 
-/// The columns that only some results have.
-pub fn further(of_the_network: bool, of_memory: bool) -> impl Iterator<Item = &'static str> {
-    let network = OF_THE_NETWORK.into_iter().filter(move |_| of_the_network);
-    network.chain(OF_MEMORY.into_iter().filter(move |_| of_memory))
+/// What columns there are besides those of every sweep.
+#[derive(Clone, Copy, Debug)]
+pub struct Also {
+    /// Those of the network.
+    pub network: bool,
+    /// Those of the nodes' memory.
+    pub memory: bool,
+    /// Those of the message layer.
+    pub message_layer: bool,
+}
+
+impl Also {
+    fn columns(self) -> impl Iterator<Item = &'static str> {
+        let network = OF_THE_NETWORK.into_iter().filter(move |_| self.network);
+        let memory = OF_MEMORY.into_iter().filter(move |_| self.memory);
+        let layer = message_layer::COLUMNS.into_iter().filter(move |_| self.message_layer);
+        network.chain(memory).chain(layer)
+    }
 }
 
 /// All columns of a sweep, in order: the first ones, swept fields not among them, the last ones, and
-/// those that only some results have.
-pub fn names(axes: &[Axis], further: impl Iterator<Item = &'static str>) -> Vec<String> {
+/// those that are asked for.
+pub fn names(axes: &[Axis], also: Also) -> Vec<String> {
     let swept = axes.iter().map(|axis| axis.place.to_string());
     let swept = swept.filter(|name| !FIRST.contains(&name.as_str()));
     let first = FIRST.iter().map(|&name| name.to_owned());
-    let last = LAST.into_iter().chain(further).map(str::to_owned);
+    let last = LAST.into_iter().chain(also.columns()).map(str::to_owned);
     first.chain(swept).chain(last).collect()
 }
 
@@ -114,7 +129,7 @@ pub fn figure(figures: &Figures, column: &str) -> Option<String> {
             let counts = figures.work.iter().map(|(name, count)| format!("{name}={count}"));
             counts.collect::<Vec<_>>().join(" ")
         }
-        _ => return None,
+        _ => return figures.message_layer.and_then(|layer| layer.cell(column)),
     })
 }
 

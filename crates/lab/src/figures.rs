@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::message_layer::MessageLayerFigures;
 use crate::network::NetworkFigures;
 use crate::node_memory::NodeMemoryFigures;
 
@@ -43,6 +44,9 @@ pub struct Figures {
     /// What it tells of its nodes' memory, where that is modelled.
     #[serde(default)]
     pub memory: Option<NodeMemoryFigures>,
+    /// What it tells of its machine's message layer, if that does anything.
+    #[serde(default)]
+    pub message_layer: Option<MessageLayerFigures>,
 }
 
 /// Where the energy is at the end of a run, in shares of the emitted energy, all colours together.

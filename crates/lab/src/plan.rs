@@ -8,10 +8,11 @@ use multicomputer::Machine;
 use serde_json::Value;
 use virtwall::Problem;
 
-use crate::columns;
+use crate::columns::Also;
 use crate::comparison::Comparison;
 use crate::digest::FileDigest;
 use crate::experiment::{Experiment, Plot};
+use crate::message_layer;
 use crate::network;
 use crate::place::Place;
 use crate::settings::Settings;
@@ -44,20 +45,14 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Whether its results tell of the nodes' memory.
-    pub fn tells_of_memory(&self) -> bool {
-        self.machines.iter().any(|equipment| equipment.machine.node_memory.is_some())
-    }
-
-    /// The columns that only some results have.
-    pub fn further_columns(&self) -> impl Iterator<Item = &'static str> {
-        columns::further(self.tells_of_the_network(), self.tells_of_memory())
-    }
-
-    /// Whether its results tell of the network.
-    pub fn tells_of_the_network(&self) -> bool {
+    /// What its results tell of besides what all do.
+    pub fn also(&self) -> Also {
         let machine = |run: &Run| &self.machines[run.machine].machine;
-        self.runs.iter().any(|run| network::tells(machine(run), run.point.network))
+        Also {
+            network: self.runs.iter().any(|run| network::tells(machine(run), run.point.network)),
+            memory: self.runs.iter().any(|run| machine(run).node_memory.is_some()),
+            message_layer: self.runs.iter().any(|run| message_layer::tells(machine(run))),
+        }
     }
 }
 
@@ -91,8 +86,8 @@ pub struct Equipment {
     pub machine: Machine,
     /// Where its file is.
     pub path: PathBuf,
-    /// Its file.
-    pub digest: FileDigest,
+    /// Its file, and those that it extends.
+    pub digests: Vec<FileDigest>,
 }
 
 /// Which value a run has of each swept field but `field`.

@@ -19,7 +19,7 @@ pub struct Table {
 impl Table {
     /// The results of a plan's runs, in the plan's order.
     pub fn of(plan: &Plan, endings: &Endings) -> Table {
-        let columns = columns::names(&plan.axes, plan.further_columns());
+        let columns = columns::names(&plan.axes, plan.also());
         let one_processor = &one_processor(plan, endings);
         let finest = &networks::finest(plan, endings);
         let row = |(run, ending): (&Run, &Option<Ending>)| {

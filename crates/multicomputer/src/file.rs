@@ -8,6 +8,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
 
+use crate::message_layer::MessageLayerFile;
 use crate::network::Model;
 use crate::sourced::{Bandwidth, Bytes, Cycles, Frequency, Positive, Quantity, Sourced, Time};
 
@@ -20,6 +21,10 @@ pub(crate) struct MachineFile {
     /// Where editors find the schema of this file.
     #[serde(rename = "$schema", default)]
     pub(crate) _schema: Option<String>,
+    /// A machine of which this file says only what differs: each of its fields takes the place of
+    /// that one's, objects field by field; null takes a field away.
+    #[serde(default)]
+    pub(crate) extends: Option<String>,
     /// What machine this is, for people.
     pub(crate) title: String,
     /// A mesh; one of "mesh", "torus", "crossbar" and "bus" must be there. Compute nodes fill its
@@ -47,6 +52,10 @@ pub(crate) struct MachineFile {
     pub(crate) node_memory: Option<NodeMemoryFile>,
     /// How messages travel.
     pub(crate) network: NetworkFile,
+    /// What the message layer of a node does besides the overheads of the network's parameters; what
+    /// is left out of it costs nothing.
+    #[serde(default)]
+    pub(crate) message_layer: MessageLayerFile,
     /// What has been measured on the real machine, to stand beside what is simulated.
     #[serde(default)]
     pub(crate) published: PublishedFile,
@@ -164,9 +173,16 @@ pub(crate) struct LinksFile {
     pub(crate) virtual_channels: Sourced<NonZeroU8>,
 }
 
-/// The JSON Schema of a machine file.
+/// The JSON Schema of a machine file. One that extends another need not say everything.
 pub fn machine_schema() -> serde_json::Value {
-    schemars::schema_for!(MachineFile).to_value()
+    let mut schema = schemars::schema_for!(MachineFile).to_value();
+    if let Some(schema) = schema.as_object_mut()
+        && let Some(required) = schema.remove("required")
+    {
+        let either = serde_json::json!([{ "required": required }, { "required": ["extends"] }]);
+        schema.insert("anyOf".to_owned(), either);
+    }
+    schema
 }
 
 /// Reads a map and refuses a key that stands in it twice, which serde's own maps let pass.

@@ -5,6 +5,7 @@ use thiserror::Error;
 use crate::fault::{MachineFault, read};
 use crate::file::{LinksFile, LogGpFile, MachineFile, NetworkFile, NodeMemoryFile, ProcessorFile};
 use crate::memory::NodeMemory;
+use crate::message_layer::MessageLayer;
 use crate::network::{LinkParameters, LogGpParameters, Network, NetworkParameters, Rung};
 use crate::processor::Processor;
 use crate::sourced::{Bytes, Quantity};
@@ -33,6 +34,8 @@ pub struct Machine {
     pub parameters: NetworkParameters,
     /// The rung of its network that the file chooses; none if that is left to be found out.
     pub rung: Option<Rung>,
+    /// What its nodes' message layer does besides LogGP's overheads, on every rung.
+    pub message_layer: MessageLayer,
     /// What has been measured on the real machine.
     pub published: Published,
     topology: Topology,
@@ -155,10 +158,15 @@ impl Machine {
 
 /// The machine, if its nodes have room on its network and that is fully described.
 fn validate(file: MachineFile) -> Result<Machine, MachineFault> {
+    if let Some(base) = &file.extends {
+        let message = format!("found \"{base}\"; expected a whole machine, with that one's fields");
+        return refuse("extends", message);
+    }
     let (shape, hop_time) = shape(&file)?;
     let node_memory = file.node_memory.as_ref().map(node_memory).transpose()?;
     let (title, processor) = (file.title, processor(file.processor));
     let (rung, parameters) = network(&file.network, hop_time)?;
+    let message_layer = file.message_layer.check()?;
     let published = Published {
         latency: file.published.latency.map(|latency| latency.value.duration()),
         bandwidth: file.published.bandwidth.map(|bandwidth| bandwidth.value.si),
@@ -169,6 +177,7 @@ fn validate(file: MachineFile) -> Result<Machine, MachineFault> {
         node_memory,
         parameters,
         rung,
+        message_layer,
         published,
         topology: Topology::new(shape),
         compute_nodes: file.compute_nodes.value.get().into(),

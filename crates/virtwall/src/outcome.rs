@@ -1,6 +1,7 @@
 //! What a run found.
 
 use desim::{Duration, Time};
+use multicomputer::LayerAccount;
 use radiosity::{Rgb, Work};
 
 use crate::compute_node::ComputeNode;
@@ -73,7 +74,7 @@ pub enum Ending {
 pub struct NodeReport {
     /// Time in kernels.
     pub compute: Duration,
-    /// Time in sending and receiving.
+    /// Time in sending and receiving, waits for room in buffers included.
     pub overhead: Duration,
     /// Time spent waiting for pages that were not in memory.
     pub paging: Duration,
@@ -81,6 +82,8 @@ pub struct NodeReport {
     pub memory_high_water: Option<u64>,
     /// Time spent waiting until the node knew of the end.
     pub idle: Duration,
+    /// What the message layer did besides sending and receiving.
+    pub layer: LayerAccount,
     /// Shots of its own patches.
     pub local_shots: u64,
     /// Shots of sources handed on to it.
@@ -125,6 +128,13 @@ impl Outcome {
             nodes: reports,
             radiosity,
         }
+    }
+
+    /// What the message layer did on all compute nodes.
+    pub fn layer(&self) -> LayerAccount {
+        let mut all = LayerAccount::default();
+        self.nodes.iter().for_each(|node| all.add(&node.layer));
+        all
     }
 
     /// Time in kernels as a fraction of all compute nodes' time.

@@ -122,7 +122,10 @@ pub fn simulate_over(
         });
     }
     let service = process(run.processors);
-    handle.spawn("service node", async move { service_node(&service, collection).await });
+    handle.spawn("service node", async move {
+        service_node(&service, collection).await;
+        service.node.finish();
+    });
     simulation.run()?;
     let mut finished = finished.take();
     finished.sort_unstable_by_key(|(rank, ..)| *rank);
@@ -131,10 +134,11 @@ pub fn simulate_over(
     let reports =
         multicomputer.accounts().into_iter().take(nodes.len()).map(|account| NodeReport {
             compute: account.compute,
-            overhead: account.send_overhead + account.receive_overhead,
+            overhead: account.overhead(),
             paging: account.paging,
             memory_high_water: account.memory_high_water,
             idle: account.idle,
+            layer: account.layer,
             ..NodeReport::default()
         });
     let reports = reports.collect();
