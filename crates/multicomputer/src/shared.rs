@@ -41,7 +41,7 @@ pub(crate) struct Wires<M> {
     pub(crate) network: Box<dyn Network>,
     /// Messages under way with the ranks they go to, and some that have arrived: in the order in
     /// which they were sent, so that the network may know each by a number of its own.
-    under_way: VecDeque<Option<Letter<M>>>,
+    under_way: VecDeque<Option<(Rank, M)>>,
     /// The number of the first of them.
     first: u64,
     arrived: Vec<Arrival>,
@@ -58,13 +58,12 @@ impl<M> Wires<M> {
     /// Sends a message; returns when the sending processor may go on.
     fn send(&mut self, now: Time, (from, to): (Place, Place), letter: Letter<M>) -> Time {
         let id = self.first + self.under_way.len() as u64;
-        let bytes = letter.bytes;
-        self.under_way.push_back(Some(letter));
-        self.network.send(now, Message { id, from, to, bytes })
+        self.under_way.push_back(Some((letter.to, letter.message)));
+        self.network.send(now, Message { id, from, to, bytes: letter.bytes })
     }
 
     /// Hands over a message that has arrived.
-    fn take(&mut self, id: u64) -> Option<Letter<M>> {
+    fn take(&mut self, id: u64) -> Option<(Rank, M)> {
         let letter = self.under_way.get_mut(id.checked_sub(self.first)? as usize)?.take();
         while let Some(None) = self.under_way.front() {
             self.under_way.pop_front();
@@ -121,7 +120,8 @@ struct Coprocessor<M> {
 
 enum Job<M> {
     Send(Letter<M>),
-    Receive(Letter<M>),
+    /// Of so many bytes.
+    Receive(u64, M),
 }
 
 impl<M> NodeState<M> {
@@ -197,12 +197,13 @@ impl<M: 'static> Shared<M> {
         }
         drop(wires);
         for arrival in arrived.drain(..) {
-            let letter = self.wires.borrow_mut().take(arrival.message.id);
+            let Message { id, bytes, .. } = arrival.message;
+            let letter = self.wires.borrow_mut().take(id);
             match letter {
-                Some(letter) if self.layer.handover.is_some() => {
-                    self.assign(letter.to, Job::Receive(letter));
+                Some((to, message)) if self.layer.handover.is_some() => {
+                    self.assign(to, Job::Receive(bytes, message));
                 }
-                Some(letter) => self.deliver(letter),
+                Some((to, message)) => self.deliver(to, bytes, message),
                 None => {}
             }
         }
@@ -218,15 +219,15 @@ impl<M: 'static> Shared<M> {
     }
 
     /// A message has come: into the hands of a process that waits for one, else into the buffers.
-    fn deliver(self: &Rc<Self>, letter: Letter<M>) {
-        let node = &self.nodes[letter.to];
-        node.put_mail(letter.message, letter.bytes);
+    fn deliver(self: &Rc<Self>, to: Rank, bytes: u64, message: M) {
+        let node = &self.nodes[to];
+        node.put_mail(message, bytes);
         if node.posted.take() {
-            self.release(letter.to, letter.bytes);
+            self.release(to, bytes);
         } else {
-            let Unposted { messages, bytes } = node.unposted.get();
-            let bytes = bytes.saturating_add(letter.bytes);
-            node.unposted.set(Unposted { messages: messages + 1, bytes });
+            let earlier = node.unposted.get();
+            let bytes = earlier.bytes.saturating_add(bytes);
+            node.unposted.set(Unposted { messages: earlier.messages + 1, bytes });
         }
     }
 
@@ -298,10 +299,10 @@ impl<M: 'static> Shared<M> {
                     shared.at(free, done);
                 });
             }
-            Some(Job::Receive(letter)) => {
+            Some(Job::Receive(bytes, message)) => {
                 let overhead = self.wires.borrow().network.receive_overhead();
                 self.at(begin + overhead, move |shared| {
-                    shared.deliver(letter);
+                    shared.deliver(rank, bytes, message);
                     done(shared);
                 });
             }
