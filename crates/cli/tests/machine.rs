@@ -181,7 +181,7 @@ fn a_machine_is_shown_and_measured() {
 
 #[test]
 fn worms_are_compared_with_flits() {
-    let small = ["machine", "compare", "--bytes", "64", "--messages", "8"];
+    let small = ["machine", "compare", "paragon-xps", "--bytes", "64", "--messages", "8"];
     let (code, table, stderr) = virtwall(&root(), &small);
     assert_eq!((code, stderr.as_str()), (0, ""));
     for pattern in ["uniform", "neighbour", "transpose", "hot-spot", "all-to-one"] {

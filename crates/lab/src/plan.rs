@@ -52,6 +52,8 @@ impl Plan {
             network: self.runs.iter().any(|run| network::tells(machine(run), run.point.network)),
             memory: self.runs.iter().any(|run| machine(run).node_memory.is_some()),
             message_layer: self.runs.iter().any(|run| message_layer::tells(machine(run))),
+            display: self.runs.iter().any(|run| machine(run).display.is_some()),
+            start_up: self.runs.iter().any(|run| machine(run).start_up.is_some()),
         }
     }
 }
@@ -76,6 +78,8 @@ pub struct Prepared {
     pub problem: Arc<Problem>,
     /// The scene's files.
     pub digests: Vec<FileDigest>,
+    /// Bytes of its geometry and materials.
+    pub scene_bytes: u64,
     /// CPU seconds that reading, cleaning, cutting and meshing took.
     pub set_up_s: f64,
 }

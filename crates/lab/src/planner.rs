@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use multicomputer::Machine;
 use serde_json::Value;
 
 use crate::columns;
@@ -135,10 +136,11 @@ impl Planner<'_> {
             );
             return Err(self.fault(point, "processors", message));
         }
-        if self.machines[machine].machine.node_memory.is_none() && !typed.node_memory.is_empty() {
-            let message = format!("the memory of \"{}\" is not modelled", typed.machine);
-            let message = message + "; expected a machine whose file has \"node_memory\"";
-            return Err(self.fault(point, "node_memory", message));
+        if let Some((field, what)) = lacks(&self.machines[machine].machine, &typed) {
+            let message = format!("the {what} of \"{}\" is not modelled", typed.machine);
+            let section = if field == "count_start_up" { "start_up" } else { field };
+            let message = message + &format!("; expected a machine whose file has \"{section}\"");
+            return Err(self.fault(point, field, message));
         }
         network::check(&self.machines[machine].machine, typed.network)
             .map_err(|error| self.fault(point, "network", error.to_string()))?;
@@ -182,8 +184,8 @@ impl Planner<'_> {
         let problem = engine::problem(&scene.geometry, &settings)
             .map_err(|(field, message)| self.fault(point, field, message))?;
         let set_up_s = loading_s + clock.cpu_seconds();
-        let digests = scene.digests.clone();
-        self.problems.push(Prepared { settings, problem, digests, set_up_s });
+        let (digests, scene_bytes) = (scene.digests.clone(), scene.bytes);
+        self.problems.push(Prepared { settings, problem, digests, scene_bytes, set_up_s });
         Ok(self.problems.len() - 1)
     }
 
@@ -206,6 +208,17 @@ impl Planner<'_> {
         }
         Ok((Comparison::read(&path)?, Some(FileDigest::of(&path, name)?)))
     }
+}
+
+/// The first field that asks for what a machine does not model, and what that is.
+fn lacks(machine: &Machine, typed: &Experiment) -> Option<(&'static str, &'static str)> {
+    if machine.node_memory.is_none() && !typed.node_memory.is_empty() {
+        return Some(("node_memory", "memory"));
+    }
+    if machine.display.is_none() && !typed.display.is_empty() {
+        return Some(("display", "display"));
+    }
+    (machine.start_up.is_none() && typed.count_start_up).then_some(("count_start_up", "start-up"))
 }
 
 /// Refuses plots of columns that there will not be, or with names that lead elsewhere.

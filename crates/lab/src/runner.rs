@@ -10,7 +10,7 @@ use crate::engine::{self, On};
 use crate::figures::Figures;
 use crate::held::held;
 use crate::host_clock::{HostClock, HostTimes};
-use crate::plan::Plan;
+use crate::plan::{Plan, Prepared};
 use crate::queue::{Queue, Task};
 use crate::saved::Saved;
 use crate::shot_files::ShotFiles;
@@ -164,7 +164,7 @@ impl Desk<'_> {
 
     fn run(&self, task: &Task) -> Ending {
         let run = &self.plan.runs[task.run];
-        let problem = &self.plan.problems[run.problem].problem;
+        let Prepared { problem, scene_bytes, .. } = &self.plan.problems[run.problem];
         let machine = &self.plan.machines[run.machine].machine;
         let (watch, index) = (Arc::clone(&self.watch), task.run);
         let on_shot = Arc::new(move || watch(Event::Shot { run: index }));
@@ -172,6 +172,6 @@ impl Desk<'_> {
         let nothing_kept = Arc::new(KeptShots::new(0));
         let kept = if point.reuse_shots { &task.kept } else { &nothing_kept };
         let run = engine::run(problem, point, kept, on_shot);
-        engine::carry_out(&run, point, self.options.on, machine)
+        engine::carry_out(&run, point, self.options.on, machine, *scene_bytes)
     }
 }

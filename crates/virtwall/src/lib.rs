@@ -6,6 +6,7 @@
 mod compute_node;
 mod counts;
 mod decomposition;
+mod display;
 mod footprint;
 mod helpers;
 mod kept_shots;
@@ -23,11 +24,13 @@ mod service_node;
 mod shot_code;
 mod shot_key;
 mod simulation;
+mod start_up;
 mod threads;
 
 pub use compute_node::{ComputeNode, compute_node};
 pub use counts::Counts;
 pub use decomposition::{Decomposition, Mapping};
+pub use display::DisplayReport;
 pub use footprint::{Footprint, Thing};
 pub use helpers::Helpers;
 pub use kept_shots::{Archive, KeptShots, ShotCounts};
@@ -42,4 +45,5 @@ pub use run::{Run, RunError};
 pub use service_node::{Collection, service_node};
 pub use shot_key::ShotKey;
 pub use simulation::{simulate, simulate_over};
+pub use start_up::{StartUpReport, Step, start_up};
 pub use threads::run_on_threads;
