@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use common::{paragon, rules, same, two_rooms_cut};
 use desim::{Duration, Time};
-use multicomputer::{Display, Ethernet, Machine, StartUp, WhenFull};
+use multicomputer::{Display, Ethernet, StartUp, WhenFull};
 use virtwall::{KeptShots, Outcome, Run, RunError, Step, simulate, start_up};
 
 fn run(processors: usize) -> Run {
@@ -45,7 +45,9 @@ fn slow(when_full: WhenFull) -> Display {
 }
 
 fn on(run: &Run, display: Option<Display>) -> Outcome {
-    simulate(run, &Machine { display, ..paragon() }).unwrap()
+    let mut machine = paragon();
+    machine.display = display;
+    simulate(run, &machine).unwrap()
 }
 
 #[test]
@@ -133,8 +135,8 @@ fn a_start_up_is_reading_and_making_ready() {
 
 #[test]
 fn a_step_without_a_price_is_refused() {
-    let start = StartUp { cycles: BTreeMap::new(), ..disks() };
-    let machine = Machine { start_up: Some(start), ..paragon() };
+    let mut machine = paragon();
+    machine.start_up = Some(StartUp { cycles: BTreeMap::new(), ..disks() });
     let refused = start_up(&run(1), &machine, 1);
     assert!(matches!(refused, Err(RunError::Step(Step::PolygonRead))));
 }
