@@ -36,6 +36,8 @@ pub struct Display {
 }
 
 /// What happens to updates for which the service node has no room.
+///
+/// Choice C31: Figure 6 of RR-3008 receives and sends one after the other, and says no more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum WhenFull {
