@@ -75,6 +75,7 @@ pub(crate) struct DisplayFile {
     /// The processor of the service node, as far as it sends updates on.
     service: ServiceFile,
     /// Room at the service node for updates that were not sent on. One that is longer has it to itself.
+    /// With "back_pressure" it is for all messages, in place of the message layer's buffers.
     service_buffers: Sourced<Quantity<Bytes>>,
     /// What happens when that is full.
     when_full: WhenFull,
