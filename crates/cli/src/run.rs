@@ -6,6 +6,7 @@ use std::sync::Arc;
 use clap::{Args, ValueEnum};
 use lab::{Endings, HostClock, On, Options, Plan, Results, ShotFiles};
 use multicomputer::quantity::{Dimension, QuantityError, parse};
+use reference::parallel;
 
 use crate::exit::Exit;
 use crate::progress::Progress;
@@ -65,7 +66,8 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let clock = HostClock::start();
     let network = arguments.network.iter().map(|rung| format!("network={rung}"));
     let set: Vec<String> = arguments.set.iter().cloned().chain(network).collect();
-    let plan = Arc::new(Plan::read(&arguments.file, &set)?);
+    let threads = arguments.threads.map_or_else(parallel::host_threads, usize::from);
+    let plan = Arc::new(Plan::read(&arguments.file, &set, threads)?);
     let default = || PathBuf::from("results").join(&plan.name);
     let out = arguments.out.clone().unwrap_or_else(default);
     let place = out.display();
@@ -73,7 +75,6 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     std::fs::create_dir_all(&out)
         .map_err(|error| Exit::bad_input(format!("{place}: no folder for results: {error}")))?;
 
-    let threads = arguments.threads.map_or_else(host_processors, usize::from);
     let on = match arguments.on {
         OnArgument::Simulation => On::Simulation,
         OnArgument::Threads => On::Threads,
@@ -122,8 +123,4 @@ fn shots(endings: &Endings) -> String {
         shots.archived,
         shots.cast,
     )
-}
-
-fn host_processors() -> usize {
-    std::thread::available_parallelism().map_or(1, |processors| processors.get())
 }
