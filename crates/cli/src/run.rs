@@ -46,6 +46,9 @@ pub struct Arguments {
     /// time. It can be emptied whenever nothing runs
     #[arg(long, value_name = "DIR")]
     keep_shots: Option<PathBuf>,
+    /// Print nothing but what went wrong: no progress, no table
+    #[arg(long, short)]
+    quiet: bool,
 }
 
 /// A number of bytes, with its unit.
@@ -81,7 +84,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     };
     let memory = arguments.memory.unwrap_or_else(lab::half_of_free_memory);
     let options = Options { threads, fresh: arguments.fresh, on, memory, shot_files };
-    let progress = Arc::new(Progress::new(Arc::clone(&plan)));
+    let progress = Arc::new(Progress::new(Arc::clone(&plan), arguments.quiet));
     let watch = {
         let progress = Arc::clone(&progress);
         Arc::new(move |event| progress.note(event))
@@ -98,6 +101,9 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         output += &format!("Shots could not be kept in {trouble}.\n");
     }
     output += &format!("Results are in {place}.\n");
+    if arguments.quiet {
+        output.clear();
+    }
     match results.failures() {
         0 => Ok(output),
         failures => {
