@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
+use crate::answer::{self, Stored};
 use crate::columns;
 use crate::comparison::Comparison;
 use crate::digest::FileDigest;
@@ -15,6 +16,7 @@ use crate::fault::{Fault, unknown};
 use crate::file::{PLAIN, is_plain};
 use crate::find::{Shelf, find};
 use crate::host_clock::HostClock;
+use crate::knobs;
 use crate::machine_file::MachineFile;
 use crate::measure::Measure;
 use crate::network;
@@ -47,6 +49,8 @@ impl Plan {
             scenes: BTreeMap::new(),
             machines: Vec::new(),
             problems: Vec::new(),
+            references: BTreeMap::new(),
+            stored: Vec::new(),
         };
         planner.plan()
     }
@@ -62,6 +66,9 @@ struct Planner<'a> {
     scenes: BTreeMap<PathBuf, (Scene, f64)>,
     machines: Vec<Equipment>,
     problems: Vec<Prepared>,
+    /// Which of those stored, by file and scene.
+    references: BTreeMap<(PathBuf, PathBuf), usize>,
+    stored: Vec<Stored>,
 }
 
 impl Planner<'_> {
@@ -79,6 +86,7 @@ impl Planner<'_> {
             self.scenes.values().flat_map(|(s, _)| s.digests.clone()).collect();
         files.extend(self.machines.iter().flat_map(|machine| machine.digests.clone()));
         files.extend(compared);
+        files.extend(self.stored.iter().map(|stored| stored.digest.clone()));
         files.sort();
         files.dedup();
         let warnings = self.scenes.values().flat_map(|(s, _)| s.warnings.clone()).collect();
@@ -90,6 +98,7 @@ impl Planner<'_> {
             runs,
             problems: self.problems,
             machines: self.machines,
+            references: self.stored,
             comparison,
             plots,
             warnings,
@@ -142,8 +151,39 @@ impl Planner<'_> {
         }
         network::check(&self.machines[machine].machine, typed.network)
             .map_err(|error| self.fault(point, "network", error.to_string()))?;
+        knobs::check(&typed).map_err(|(field, message)| self.fault(point, field, message))?;
         let problem = self.problem(point, &typed)?;
-        Ok(Run { index: point.index.clone(), point: typed, problem, machine })
+        let stored = self.reference(point, &typed, problem)?;
+        Ok(Run { index: point.index.clone(), point: typed, problem, machine, stored })
+    }
+
+    /// The stored reference of this point, read once; none if it has none, or a dense one.
+    fn reference(
+        &mut self,
+        point: &Point,
+        typed: &Experiment,
+        problem: usize,
+    ) -> Result<Option<usize>, Fault> {
+        let Some(name) = typed.reference.as_deref() else { return Ok(None) };
+        let refuse = |message| self.fault(point, "reference", message);
+        if name == answer::DENSE {
+            let patches = self.problems[problem].problem.patches();
+            let most = answer::MOST_DENSE;
+            let message = format!("\"{name}\" for {patches} patches; expected at most {most}");
+            return if patches > most { Err(refuse(message)) } else { Ok(None) };
+        }
+        let scene = find(self.folder, Shelf::Scenes, &typed.scene).map_err(refuse)?.path;
+        let stem = || scene.file_stem().unwrap_or_default().to_string_lossy();
+        let name = if name == answer::STORED { stem() } else { name.into() };
+        let found = find(self.folder, Shelf::References, &name).map_err(refuse)?;
+        let key = (found.path.clone(), scene.clone());
+        if let Some(&known) = self.references.get(&key) {
+            return Ok(Some(known));
+        }
+        let stored = Stored::read(&found, &self.scenes[&scene].0.geometry)?;
+        self.stored.push(stored);
+        self.references.insert(key, self.stored.len() - 1);
+        Ok(Some(self.stored.len() - 1))
     }
 
     /// A fault of a field at one point of the sweep.

@@ -4,9 +4,12 @@ use std::io;
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use radiosity::Rgb;
 use virtwall::{Helpers, KeptShots, Memory, ShotCounts};
 
+use crate::answer::DenseAnswers;
 use crate::engine::{self, On};
+use crate::errors::{ErrorFigures, Radiosity, Yardstick};
 use crate::figures::Figures;
 use crate::held::held;
 use crate::host_clock::{HostClock, HostTimes};
@@ -90,6 +93,7 @@ pub fn carry_out(plan: &Plan, out: &Path, options: &Options, watch: Watch) -> io
         queue: Mutex::new(Queue::new(plan, waiting)),
         runs: Mutex::new(found),
         host: Mutex::new(vec![None; plan.runs.len()]),
+        dense: DenseAnswers::default(),
         trouble: Mutex::new(None),
     };
     std::thread::scope(|scope| {
@@ -117,6 +121,7 @@ struct Desk<'a> {
     queue: Mutex<Queue>,
     runs: Mutex<Vec<Option<Ending>>>,
     host: Mutex<Vec<Option<HostTimes>>>,
+    dense: DenseAnswers,
     trouble: Mutex<Option<io::Error>>,
 }
 
@@ -128,18 +133,20 @@ impl Desk<'_> {
                 return;
             };
             let clock = HostClock::start();
-            let ending = self.run(&task);
+            let ended = self.run(&task);
+            let (cpu_s, clock_s) = (clock.cpu_seconds(), clock.seconds());
+            let ending = ended.map(|(figures, radiosity)| Figures {
+                errors: self.errors(&task, &radiosity),
+                ..figures
+            });
             if let Ok(figures) = &ending
                 && let Err(error) = self.saved.store(&self.keys[task.run], figures)
             {
                 *held(&self.trouble) = Some(error);
             }
             let run = task.run;
-            let host = HostTimes {
-                cpu_s: clock.cpu_seconds(),
-                set_up_s: self.plan.problems[task.problem].set_up_s,
-                clock_s: clock.seconds(),
-            };
+            let host =
+                HostTimes { cpu_s, set_up_s: self.plan.problems[task.problem].set_up_s, clock_s };
             held(&self.runs)[run] = Some(ending);
             held(&self.host)[run] = Some(host);
             held(&self.queue).done(&task);
@@ -162,7 +169,19 @@ impl Desk<'_> {
         Endings { runs, host, shots, shot_bytes }
     }
 
-    fn run(&self, task: &Task) -> Ending {
+    /// How far a run is from the answer, if there is one; no part of what the run took of the host.
+    fn errors(&self, task: &Task, radiosity: &Radiosity) -> Option<ErrorFigures> {
+        let run = &self.plan.runs[task.run];
+        let problem = &self.plan.problems[run.problem].problem;
+        run.point.reference.as_ref()?;
+        let answer = match run.stored {
+            Some(stored) => Arc::clone(&self.plan.references[stored].answer),
+            None => self.dense.of(problem),
+        };
+        Some(Yardstick::new(&answer, problem).errors(radiosity))
+    }
+
+    fn run(&self, task: &Task) -> Result<(Figures, Vec<Vec<Rgb>>), String> {
         let run = &self.plan.runs[task.run];
         let problem = &self.plan.problems[run.problem].problem;
         let machine = &self.plan.machines[run.machine].machine;
