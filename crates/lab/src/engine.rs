@@ -13,6 +13,7 @@ use crate::experiment::{self as fields, Experiment};
 use crate::fault::Fault;
 use crate::figures::{Energy, Figures};
 use crate::find::Found;
+use crate::knobs;
 use crate::machine_file::MachineFile;
 use crate::message_layer::{self, MessageLayerFigures};
 use crate::network;
@@ -109,7 +110,8 @@ pub fn run(
     }
 }
 
-/// Runs a point's run to the end, on the simulated `machine` or on threads.
+/// Runs a point's run to the end, on the simulated `machine` or on threads: its figures, and its
+/// radiosities by environment.
 ///
 /// # Errors
 /// Why the run did not end.
@@ -118,7 +120,7 @@ pub fn carry_out(
     point: &Experiment,
     on: On,
     machine: &Machine,
-) -> Result<Figures, String> {
+) -> Result<(Figures, Vec<Vec<Rgb>>), String> {
     let outcome = match on {
         On::Simulation => network::simulate(run, &point.node_memory.laid_over(machine), point),
         On::Threads => virtwall::run_on_threads(run).map(|outcome| (outcome, None)),
@@ -127,7 +129,7 @@ pub fn carry_out(
     let tells = on == On::Simulation && message_layer::tells(machine);
     let message_layer = tells.then(|| MessageLayerFigures::of(&outcome.layer()));
     let figures = figures(&run.problem, &outcome, on == On::Simulation);
-    Ok(Figures { network, message_layer, ..figures })
+    Ok((Figures { network, message_layer, ..figures }, outcome.radiosity))
 }
 
 /// The outcome's figures; times only if they are virtual.
@@ -162,6 +164,7 @@ fn figures(problem: &Problem, outcome: &Outcome, virtual_time: bool) -> Figures 
         network: None,
         memory: node_memory::figures(outcome),
         message_layer: None,
+        errors: None,
         work: outcome.work.counts().map(|(op, n)| (op.name().to_owned(), n)).collect(),
     }
 }
@@ -187,5 +190,6 @@ fn rules(point: &Experiment) -> Rules {
             fields::Mapping::Cyclic => virtwall::Mapping::Cyclic,
             fields::Mapping::Random => virtwall::Mapping::Random(point.seed),
         },
+        shooting: knobs::shooting(point),
     }
 }

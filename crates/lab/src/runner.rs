@@ -4,9 +4,12 @@ use std::io;
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use radiosity::Rgb;
 use virtwall::{Helpers, KeptShots, Memory, ShotCounts};
 
+use crate::answer::DenseAnswers;
 use crate::engine::{self, On};
+use crate::errors::{ErrorFigures, Radiosity, Yardstick};
 use crate::figures::Figures;
 use crate::held::held;
 use crate::host_clock::{HostClock, HostTimes};
@@ -92,6 +95,7 @@ pub fn carry_out(plan: &Plan, out: &Path, options: &Options, watch: Watch) -> io
         queue: Mutex::new(Queue::new(plan, waiting)),
         runs: Mutex::new(found),
         host: Mutex::new(host),
+        dense: DenseAnswers::default(),
         trouble: Mutex::new(None),
     };
     std::thread::scope(|scope| {
@@ -119,6 +123,7 @@ struct Desk<'a> {
     queue: Mutex<Queue>,
     runs: Mutex<Vec<Option<Ending>>>,
     host: Mutex<Vec<Option<HostTimes>>>,
+    dense: DenseAnswers,
     trouble: Mutex<Option<io::Error>>,
 }
 
@@ -130,13 +135,17 @@ impl Desk<'_> {
                 return;
             };
             let clock = HostClock::start();
-            let ending = self.run(&task);
-            let run = task.run;
+            let ended = self.run(&task);
             let host = HostTimes {
                 cpu_s: clock.cpu_seconds(),
                 set_up_s: self.plan.problems[task.problem].set_up_s,
                 clock_s: clock.seconds(),
             };
+            let ending = ended.map(|(figures, radiosity)| Figures {
+                errors: self.errors(&task, &radiosity),
+                ..figures
+            });
+            let run = task.run;
             if let Ok(figures) = &ending
                 && let Err(error) = self.saved.store(&self.keys[run], figures, host)
             {
@@ -164,7 +173,19 @@ impl Desk<'_> {
         Endings { runs, host, shots, shot_bytes }
     }
 
-    fn run(&self, task: &Task) -> Ending {
+    /// How far a run is from the answer, if there is one; no part of what the run took of the host.
+    fn errors(&self, task: &Task, radiosity: &Radiosity) -> Option<ErrorFigures> {
+        let run = &self.plan.runs[task.run];
+        let problem = &self.plan.problems[run.problem].problem;
+        run.point.reference.as_ref()?;
+        let answer = match run.stored {
+            Some(stored) => Arc::clone(&self.plan.references[stored].answer),
+            None => self.dense.of(problem),
+        };
+        Some(Yardstick::new(&answer, problem).errors(radiosity))
+    }
+
+    fn run(&self, task: &Task) -> Result<(Figures, Vec<Vec<Rgb>>), String> {
         let run = &self.plan.runs[task.run];
         let problem = &self.plan.problems[run.problem].problem;
         let machine = &self.plan.machines[run.machine].machine;
