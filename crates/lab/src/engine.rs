@@ -6,7 +6,8 @@ use multicomputer::Machine;
 use radiosity::{Hemisphere, HemisphereKind, Operation, PatchSize, Rgb};
 use serde::Serialize;
 use virtwall::{
-    Ending, KeptShots, Outcome, Problem, ProblemError, ProblemOptions, Rules, Run, Thing,
+    Ending, KeptShots, Outcome, Problem, ProblemError, ProblemOptions, Rules, Run, SharedObserver,
+    Thing,
 };
 
 use crate::experiment::{self as fields, Experiment};
@@ -109,7 +110,7 @@ pub fn run(
     }
 }
 
-/// Runs a point's run to the end, on the simulated `machine` or on threads.
+/// Runs a point's run to the end, on the simulated `machine`, where it can be observed, or on threads.
 ///
 /// # Errors
 /// Why the run did not end.
@@ -118,9 +119,13 @@ pub fn carry_out(
     point: &Experiment,
     on: On,
     machine: &Machine,
+    observer: Option<SharedObserver>,
 ) -> Result<Figures, String> {
     let outcome = match on {
-        On::Simulation => network::simulate(run, &node_memory::machine(machine, point), point),
+        On::Simulation => {
+            let machine = node_memory::machine(machine, point);
+            network::simulate(run, &machine, point, observer)
+        }
         On::Threads => virtwall::run_on_threads(run).map(|outcome| (outcome, None)),
     };
     let (outcome, network) = outcome.map_err(|error| error.to_string())?;

@@ -1,10 +1,12 @@
 //! Carries a plan out: independent runs side by side, each saved as soon as it is finished.
 
+use std::cell::RefCell;
 use std::io;
 use std::path::Path;
+use std::rc::Rc;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use virtwall::{Helpers, KeptShots, Memory, ShotCounts};
+use virtwall::{Helpers, KeptShots, Memory, Recording, SharedObserver, ShotCounts};
 
 use crate::engine::{self, On};
 use crate::figures::Figures;
@@ -14,6 +16,7 @@ use crate::plan::Plan;
 use crate::queue::{Queue, Task};
 use crate::saved::Saved;
 use crate::shot_files::ShotFiles;
+use crate::traces::Traces;
 
 /// How a plan is carried out. None of it changes what a simulated run finds.
 pub struct Options {
@@ -27,6 +30,8 @@ pub struct Options {
     pub memory: usize,
     /// Where shots are kept beyond memory and beyond this sweep.
     pub shot_files: Option<ShotFiles>,
+    /// Traces to be written of simulated runs; runs found finished are simulated again for them.
+    pub traces: Option<Traces>,
 }
 
 /// Something that happened while a plan is carried out.
@@ -70,7 +75,7 @@ pub struct Endings {
 /// If a finished run cannot be saved. A run that fails is no error here: it ends so.
 pub fn carry_out(plan: &Plan, out: &Path, options: &Options, watch: Watch) -> io::Result<Endings> {
     let saved = Saved::in_folder(out);
-    if options.fresh {
+    if options.fresh || options.traces.is_some() {
         saved.forget()?;
     }
     let keys: Vec<String> = plan.runs.iter().map(|run| saved.key(plan, run, options.on)).collect();
@@ -128,10 +133,12 @@ impl Desk<'_> {
                 return;
             };
             let clock = HostClock::start();
-            let ending = self.run(&task);
-            if let Ok(figures) = &ending
-                && let Err(error) = self.saved.store(&self.keys[task.run], figures)
-            {
+            let (ending, traced) = self.run(&task);
+            let stored = match &ending {
+                Ok(figures) => self.saved.store(&self.keys[task.run], figures),
+                Err(_) => Ok(()),
+            };
+            if let Err(error) = traced.and(stored) {
                 *held(&self.trouble) = Some(error);
             }
             let run = task.run;
@@ -162,7 +169,8 @@ impl Desk<'_> {
         Endings { runs, host, shots, shot_bytes }
     }
 
-    fn run(&self, task: &Task) -> Ending {
+    /// Carries a run out, and writes its trace if there is to be one.
+    fn run(&self, task: &Task) -> (Ending, io::Result<()>) {
         let run = &self.plan.runs[task.run];
         let problem = &self.plan.problems[run.problem].problem;
         let machine = &self.plan.machines[run.machine].machine;
@@ -172,6 +180,15 @@ impl Desk<'_> {
         let nothing_kept = Arc::new(KeptShots::new(0));
         let kept = if point.reuse_shots { &task.kept } else { &nothing_kept };
         let run = engine::run(problem, point, kept, on_shot);
-        engine::carry_out(&run, point, self.options.on, machine)
+        let on = self.options.on;
+        let Some(traces) = &self.options.traces else {
+            return (engine::carry_out(&run, point, on, machine, None), Ok(()));
+        };
+        let recording = Rc::new(RefCell::new(Recording::new(problem, run.processors)));
+        let observer: SharedObserver = recording.clone();
+        let ending = engine::carry_out(&run, point, on, machine, Some(observer));
+        // Of a run that failed, too: there it is needed most.
+        let traced = traces.write(self.plan, task.run, &recording.borrow());
+        (ending, traced)
     }
 }
