@@ -6,7 +6,8 @@ use multicomputer::Machine;
 use radiosity::{Hemisphere, HemisphereKind, Operation, PatchSize, Rgb};
 use serde::Serialize;
 use virtwall::{
-    Ending, KeptShots, Outcome, Problem, ProblemError, ProblemOptions, Rules, Run, Thing,
+    Ending, KeptShots, Outcome, Problem, ProblemError, ProblemOptions, Rules, Run, SharedObserver,
+    Thing,
 };
 
 use crate::experiment::{self as fields, Experiment};
@@ -110,8 +111,8 @@ pub fn run(
     }
 }
 
-/// Runs a point's run to the end, on the simulated `machine` or on threads: its figures, and its
-/// radiosities by environment.
+/// Runs a point's run to the end, on the simulated `machine`, where it can be observed, or on threads:
+/// its figures, and its radiosities by environment.
 ///
 /// # Errors
 /// Why the run did not end.
@@ -120,9 +121,12 @@ pub fn carry_out(
     point: &Experiment,
     on: On,
     machine: &Machine,
+    observer: Option<SharedObserver>,
 ) -> Result<(Figures, Vec<Vec<Rgb>>), String> {
     let outcome = match on {
-        On::Simulation => network::simulate(run, &point.node_memory.laid_over(machine), point),
+        On::Simulation => {
+            network::simulate(run, &point.node_memory.laid_over(machine), point, observer)
+        }
         On::Threads => virtwall::run_on_threads(run).map(|outcome| (outcome, None)),
     };
     let (outcome, network) = outcome.map_err(|error| error.to_string())?;

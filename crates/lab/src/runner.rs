@@ -1,11 +1,13 @@
 //! Carries a plan out: independent runs side by side, each saved as soon as it is finished.
 
+use std::cell::RefCell;
 use std::io;
 use std::path::Path;
+use std::rc::Rc;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use radiosity::Rgb;
-use virtwall::{Helpers, KeptShots, Memory, ShotCounts};
+use virtwall::{Helpers, KeptShots, Memory, Recording, SharedObserver, ShotCounts};
 
 use crate::answer::DenseAnswers;
 use crate::engine::{self, On};
@@ -17,6 +19,7 @@ use crate::plan::Plan;
 use crate::queue::{Queue, Task};
 use crate::saved::Saved;
 use crate::shot_files::ShotFiles;
+use crate::traces::Traces;
 
 /// How a plan is carried out. None of it changes what a simulated run finds.
 pub struct Options {
@@ -30,6 +33,8 @@ pub struct Options {
     pub memory: usize,
     /// Where shots are kept beyond memory and beyond this sweep.
     pub shot_files: Option<ShotFiles>,
+    /// Traces to be written of simulated runs; runs found finished are simulated again for them.
+    pub traces: Option<Traces>,
 }
 
 /// Something that happened while a plan is carried out.
@@ -55,6 +60,9 @@ pub type Watch = Arc<dyn Fn(Event) + Send + Sync>;
 /// How one run ended: its figures, or why it failed.
 pub type Ending = Result<Figures, String>;
 
+/// The same with the radiosities found, by environment.
+type Ended = Result<(Figures, Vec<Vec<Rgb>>), String>;
+
 /// How all runs ended.
 pub struct Endings {
     /// In the plan's order; none for a run that was not come to.
@@ -73,7 +81,7 @@ pub struct Endings {
 /// If a finished run cannot be saved. A run that fails is no error here: it ends so.
 pub fn carry_out(plan: &Plan, out: &Path, options: &Options, watch: Watch) -> io::Result<Endings> {
     let saved = Saved::in_folder(out);
-    if options.fresh {
+    if options.fresh || options.traces.is_some() {
         saved.forget()?;
     }
     let keys: Vec<String> = plan.runs.iter().map(|run| saved.key(plan, run, options.on)).collect();
@@ -135,7 +143,7 @@ impl Desk<'_> {
                 return;
             };
             let clock = HostClock::start();
-            let ended = self.run(&task);
+            let (ended, traced) = self.run(&task);
             let host = HostTimes {
                 cpu_s: clock.cpu_seconds(),
                 set_up_s: self.plan.problems[task.problem].set_up_s,
@@ -146,9 +154,11 @@ impl Desk<'_> {
                 ..figures
             });
             let run = task.run;
-            if let Ok(figures) = &ending
-                && let Err(error) = self.saved.store(&self.keys[run], figures, host)
-            {
+            let stored = match &ending {
+                Ok(figures) => self.saved.store(&self.keys[run], figures, host),
+                Err(_) => Ok(()),
+            };
+            if let Err(error) = traced.and(stored) {
                 *held(&self.trouble) = Some(error);
             }
             held(&self.runs)[run] = Some(ending);
@@ -185,7 +195,8 @@ impl Desk<'_> {
         Some(Yardstick::new(&answer, problem).errors(radiosity))
     }
 
-    fn run(&self, task: &Task) -> Result<(Figures, Vec<Vec<Rgb>>), String> {
+    /// Carries a run out, and writes its trace if there is to be one.
+    fn run(&self, task: &Task) -> (Ended, io::Result<()>) {
         let run = &self.plan.runs[task.run];
         let problem = &self.plan.problems[run.problem].problem;
         let machine = &self.plan.machines[run.machine].machine;
@@ -195,6 +206,15 @@ impl Desk<'_> {
         let nothing_kept = Arc::new(KeptShots::new(0));
         let kept = if point.reuse_shots { &task.kept } else { &nothing_kept };
         let run = engine::run(problem, point, kept, on_shot);
-        engine::carry_out(&run, point, self.options.on, machine)
+        let on = self.options.on;
+        let Some(traces) = &self.options.traces else {
+            return (engine::carry_out(&run, point, on, machine, None), Ok(()));
+        };
+        let recording = Rc::new(RefCell::new(Recording::new(problem, run.processors)));
+        let observer: SharedObserver = recording.clone();
+        let ending = engine::carry_out(&run, point, on, machine, Some(observer));
+        // Of a run that failed, too: there it is needed most.
+        let traced = traces.write(self.plan, task.run, &recording.borrow());
+        (ending, traced)
     }
 }

@@ -41,7 +41,7 @@ pub use instants::{Instant, radiosity_at, visit_instants};
 pub use kept_shots::{Archive, KeptShots, ShotCounts};
 pub use memory::Memory;
 pub use message::{DecodeError, Message, MessageKind, Parcel, PatchUpdate, Sums};
-pub use observer::{Activity, Observer, SentMessage};
+pub use observer::{Activity, Observer, SentMessage, SharedObserver};
 pub use outcome::{Ending, EnergyLedger, NodeReport, Outcome};
 pub use problem::{Problem, ProblemError, ProblemOptions};
 pub use process::Process;

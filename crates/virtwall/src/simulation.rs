@@ -12,7 +12,7 @@ use radiosity::{Operation, Work};
 use crate::compute_node::compute_node;
 use crate::footprint::{Footprint, Thing};
 use crate::interpreter::Interpreter;
-use crate::observer::Observer;
+use crate::observer::{Observer, SharedObserver};
 use crate::outcome::{NodeReport, Outcome};
 use crate::process::Process;
 use crate::run::{Run, RunError};
@@ -119,7 +119,7 @@ pub fn simulate_observed(
     run: &Run,
     machine: &Machine,
     network: Box<dyn Network>,
-    observer: Option<Rc<RefCell<dyn Observer>>>,
+    observer: Option<SharedObserver>,
 ) -> Result<Outcome, RunError> {
     let (nodes, collection) = run.prepare()?;
     let prices = Rc::new(Prices::of(machine)?);
