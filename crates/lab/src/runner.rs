@@ -15,7 +15,7 @@ use crate::errors::{ErrorFigures, Radiosity, Yardstick};
 use crate::figures::Figures;
 use crate::held::held;
 use crate::host_clock::{HostClock, HostTimes};
-use crate::plan::Plan;
+use crate::plan::{Plan, Prepared};
 use crate::queue::{Queue, Task};
 use crate::saved::Saved;
 use crate::shot_files::ShotFiles;
@@ -198,7 +198,7 @@ impl Desk<'_> {
     /// Carries a run out, and writes its trace if there is to be one.
     fn run(&self, task: &Task) -> (Ended, io::Result<()>) {
         let run = &self.plan.runs[task.run];
-        let problem = &self.plan.problems[run.problem].problem;
+        let Prepared { problem, scene_bytes, .. } = &self.plan.problems[run.problem];
         let machine = &self.plan.machines[run.machine].machine;
         let (watch, index) = (Arc::clone(&self.watch), task.run);
         let on_shot = Arc::new(move || watch(Event::Shot { run: index }));
@@ -208,11 +208,11 @@ impl Desk<'_> {
         let run = engine::run(problem, point, kept, on_shot);
         let on = self.options.on;
         let Some(traces) = &self.options.traces else {
-            return (engine::carry_out(&run, point, on, machine, None), Ok(()));
+            return (engine::carry_out(&run, point, on, machine, *scene_bytes, None), Ok(()));
         };
         let recording = Rc::new(RefCell::new(Recording::new(problem, run.processors)));
         let observer: SharedObserver = recording.clone();
-        let ending = engine::carry_out(&run, point, on, machine, Some(observer));
+        let ending = engine::carry_out(&run, point, on, machine, *scene_bytes, Some(observer));
         // Of a run that failed, too: there it is needed most.
         let traced = traces.write(self.plan, task.run, &recording.borrow());
         (ending, traced)
