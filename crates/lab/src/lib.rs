@@ -72,7 +72,8 @@ pub use scene_file::scene_schema;
 pub use shot_files::ShotFiles;
 pub use table::Table;
 
-/// Draws a plot of a table as the text of an SVG file; a column `paper_<y>` holds published points.
+/// Draws a plot of a table as the text of an SVG file; a column `paper_<y>` or
+/// `published_<y>` holds published points.
 pub fn svg(table: &Table, plot: &Plot) -> String {
     chart::svg(table, &[], plot)
 }
