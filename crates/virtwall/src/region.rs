@@ -126,18 +126,20 @@ impl Region {
         Parcel { environment: *environment, source, mask, form_factor: 1.0 }
     }
 
-    /// Update the radiosities of the environment in which a source was shot.
-    pub(crate) fn receive(&mut self, parcel: &Parcel, shot: &Shot) {
+    /// Update the radiosities of the environment in which a source was shot. Returns the power that
+    /// its patches reflect of it, W.
+    pub(crate) fn receive(&mut self, parcel: &Parcel, shot: &Shot) -> Rgb {
         let place = self.holdings.binary_search_by_key(&parcel.environment, |h| h.environment);
-        let Ok(place) = place else { return };
+        let Ok(place) = place else { return Rgb::ZERO };
         let held = &mut self.holdings[place];
-        held.light.receive(&parcel.source, shot);
+        let reflected = held.light.receive(&parcel.source, shot);
         let geometry = &self.problem.environments[held.environment as usize];
         for &(patch, _) in &shot.hits {
             let value = value(self.selection, geometry, &held.light, patch);
             held.values.set(patch, value);
         }
         held.note_change();
+        reflected
     }
 
     /// By how much the radiosity of each patch that a shot hit has grown.
