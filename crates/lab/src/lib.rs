@@ -50,12 +50,13 @@ mod schema;
 mod series;
 mod settings;
 mod shot_files;
+mod stage;
 mod summary;
 mod sweep;
 mod table;
 
 pub use check::check;
-pub use engine::On;
+pub use engine::{Light, On};
 pub use experiment::{Plot, experiment_schema};
 pub use fault::Fault;
 pub use file::{read_text, write as write_file};
@@ -70,6 +71,7 @@ pub use results::{Results, write_host_times};
 pub use runner::{Endings, Event, Options, Watch, carry_out};
 pub use scene_file::scene_schema;
 pub use shot_files::ShotFiles;
+pub use stage::{Stage, StagedRun, Which};
 pub use table::Table;
 
 /// Draws a plot of a table as the text of an SVG file; a column `paper_<y>` or
