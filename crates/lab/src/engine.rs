@@ -1,14 +1,17 @@
 //! The one door to the simulator: beyond it nothing here knows how a kernel or a link works.
 
 use std::borrow::Cow;
+use std::cell::RefCell;
+use std::rc::Rc;
 use std::sync::Arc;
 
+use desim::Time;
 use multicomputer::Machine;
 use radiosity::{Hemisphere, HemisphereKind, Operation, PatchSize, Rgb};
 use serde::Serialize;
 use virtwall::{
-    Ending, KeptShots, Outcome, Problem, ProblemError, ProblemOptions, Rules, Run, RunError,
-    SharedObserver, Step, Thing,
+    Ending, Instant, KeptShots, Outcome, Problem, ProblemError, ProblemOptions, Rules, Run,
+    RunError, SharedObserver, Step, Thing,
 };
 
 use crate::display::DisplayFigures;
@@ -162,6 +165,51 @@ fn changed<'a>(machine: &'a Machine, point: &Experiment) -> Cow<'a, Machine> {
     machine.node_memory.iter_mut().for_each(|memory| point.node_memory.lay_over(memory));
     machine.display.iter_mut().for_each(|display| point.display.lay_over(display));
     Cow::Owned(machine)
+}
+
+/// Radiosity in W/m², by environment and patch.
+pub type Light = Vec<Vec<Rgb>>;
+
+/// The light of a simulated run at each of `times`, in rising order; and the run's end, after which
+/// there is no other light.
+///
+/// # Errors
+/// Why the run did not end.
+pub fn light_at(
+    run: &Run,
+    point: &Experiment,
+    machine: &Machine,
+    times: &[Time],
+) -> Result<(Vec<Light>, Time), String> {
+    let machine = changed(machine, point);
+    let light = Rc::new(RefCell::new(Vec::new()));
+    let visit = {
+        let light = Rc::clone(&light);
+        move |instant: Instant| {
+            light.borrow_mut().push(instant.radiosity().map(Iterator::collect).collect());
+        }
+    };
+    let outcome = network::rung(run, &machine, point)
+        .and_then(|rung| Ok(machine.network_on(rung)?))
+        .and_then(|network| virtwall::visit_instants(run, &machine, network, times, visit))
+        .map_err(|error| error.to_string())?;
+    Ok((light.take(), outcome.time))
+}
+
+/// Shots after which a scene counts as solved.
+const MOST_SHOTS: u64 = 5_000;
+
+/// The light in a problem of one environment when less than a part of it is unshot, or after so many
+/// shots; and the part that is unshot.
+pub fn solved(problem: &Problem, unshot: f64) -> (Light, f64) {
+    let whole = &problem.environments[0];
+    let (light, _) =
+        radiosity::solve(&problem.space, whole, &problem.hemisphere, unshot, MOST_SHOTS);
+    let patches = 0..whole.patches.len() as u32;
+    let radiosity = patches.map(|patch| light.radiosity(whole, patch)).collect();
+    let emitted = problem.emitted_power().element_sum();
+    let left = light.unshot_power().element_sum();
+    (vec![radiosity], if emitted > 0.0 { left / emitted } else { 0.0 })
 }
 
 /// The outcome's figures; times only if they are virtual.

@@ -39,7 +39,19 @@ impl Plan {
     /// # Errors
     /// The first fault met. Nothing was written.
     pub fn read(path: &Path, arguments: &[String], threads: usize) -> Result<Plan, Fault> {
-        let mut document = Document::read(path)?;
+        Plan::of(path, Document::read(path)?, arguments, threads)
+    }
+
+    /// Reads an experiment from a document, as if it were the file at `path`.
+    ///
+    /// # Errors
+    /// The first fault met. Nothing was written.
+    pub(crate) fn of(
+        path: &Path,
+        mut document: Document,
+        arguments: &[String],
+        threads: usize,
+    ) -> Result<Plan, Fault> {
         for argument in arguments {
             document.set(argument)?;
         }
