@@ -4,6 +4,7 @@ use serde_json::Value;
 
 use crate::display;
 use crate::engine;
+use crate::errors;
 use crate::figures::Figures;
 use crate::message_layer;
 use crate::start_up;
@@ -77,6 +78,8 @@ pub struct Also {
     pub memory: bool,
     /// Those of the message layer.
     pub message_layer: bool,
+    /// Those of errors.
+    pub errors: bool,
     /// Those of the display.
     pub display: bool,
     /// Those of the start-up.
@@ -88,9 +91,11 @@ impl Also {
         let network = OF_THE_NETWORK.into_iter().filter(move |_| self.network);
         let memory = OF_MEMORY.into_iter().filter(move |_| self.memory);
         let layer = message_layer::COLUMNS.into_iter().filter(move |_| self.message_layer);
+        let errors = errors::COLUMNS.into_iter().filter(move |_| self.errors);
         let display = display::COLUMNS.into_iter().filter(move |_| self.display);
         let start_up = start_up::COLUMNS.into_iter().filter(move |_| self.start_up);
-        network.chain(memory).chain(layer).chain(display).chain(start_up)
+        let machine = network.chain(memory).chain(layer).chain(display).chain(start_up);
+        machine.chain(errors)
     }
 }
 
@@ -141,7 +146,8 @@ pub fn figure(figures: &Figures, column: &str) -> Option<String> {
             let layer = figures.message_layer.and_then(|layer| layer.cell(column));
             let display = || figures.display.and_then(|display| display.cell(column));
             let start_up = || figures.start_up.and_then(|start_up| start_up.cell(column));
-            return layer.or_else(display).or_else(start_up);
+            let errors = || figures.errors.and_then(|errors| errors.cell(column));
+            return layer.or_else(display).or_else(start_up).or_else(errors);
         }
     })
 }

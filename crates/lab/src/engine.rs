@@ -1,14 +1,17 @@
 //! The one door to the simulator: beyond it nothing here knows how a kernel or a link works.
 
 use std::borrow::Cow;
+use std::cell::RefCell;
+use std::rc::Rc;
 use std::sync::Arc;
 
+use desim::Time;
 use multicomputer::Machine;
 use radiosity::{Hemisphere, HemisphereKind, Operation, PatchSize, Rgb};
 use serde::Serialize;
 use virtwall::{
-    Ending, KeptShots, Outcome, Problem, ProblemError, ProblemOptions, Rules, Run, RunError, Step,
-    Thing,
+    Ending, Instant, KeptShots, Outcome, Problem, ProblemError, ProblemOptions, Rules, Run,
+    RunError, SharedObserver, Step, Thing,
 };
 
 use crate::display::DisplayFigures;
@@ -16,6 +19,7 @@ use crate::experiment::{self as fields, Experiment};
 use crate::fault::Fault;
 use crate::figures::{Energy, Figures};
 use crate::find::Found;
+use crate::knobs;
 use crate::machine_file::MachineFile;
 use crate::message_layer::{self, MessageLayerFigures};
 use crate::network;
@@ -118,7 +122,8 @@ pub fn run(
     }
 }
 
-/// Runs a point's run to the end, on the simulated `machine` or on threads.
+/// Runs a point's run to the end, on the simulated `machine`, where it can be observed, or on threads:
+/// its figures, and its radiosities by environment.
 ///
 /// # Errors
 /// Why the run did not end.
@@ -128,11 +133,12 @@ pub fn carry_out(
     on: On,
     machine: &Machine,
     scene_bytes: u64,
-) -> Result<Figures, String> {
+    observer: Option<SharedObserver>,
+) -> Result<(Figures, Vec<Vec<Rgb>>), String> {
     let machine = &*changed(machine, point);
     let simulated = || {
         let start_up = virtwall::start_up(run, machine, scene_bytes)?;
-        let (outcome, network) = network::simulate(run, machine, point)?;
+        let (outcome, network) = network::simulate(run, machine, point, observer)?;
         Ok((outcome, network, start_up))
     };
     let outcome = match on {
@@ -146,7 +152,8 @@ pub fn carry_out(
     let figures = figures(&run.problem, &outcome, on == On::Simulation);
     let counted = start_up.filter(|_| point.count_start_up).map_or(0.0, |s| s.start_up_s);
     let time_s = figures.time_s.map(|time_s| time_s + counted);
-    Ok(Figures { time_s, network, message_layer, start_up, ..figures })
+    let figures = Figures { time_s, network, message_layer, start_up, ..figures };
+    Ok((figures, outcome.radiosity))
 }
 
 /// The machine as a point of an experiment has it.
@@ -158,6 +165,51 @@ fn changed<'a>(machine: &'a Machine, point: &Experiment) -> Cow<'a, Machine> {
     machine.node_memory.iter_mut().for_each(|memory| point.node_memory.lay_over(memory));
     machine.display.iter_mut().for_each(|display| point.display.lay_over(display));
     Cow::Owned(machine)
+}
+
+/// Radiosity in W/m², by environment and patch.
+pub type Light = Vec<Vec<Rgb>>;
+
+/// The light of a simulated run at each of `times`, in rising order; and the run's end, after which
+/// there is no other light.
+///
+/// # Errors
+/// Why the run did not end.
+pub fn light_at(
+    run: &Run,
+    point: &Experiment,
+    machine: &Machine,
+    times: &[Time],
+) -> Result<(Vec<Light>, Time), String> {
+    let machine = changed(machine, point);
+    let light = Rc::new(RefCell::new(Vec::new()));
+    let visit = {
+        let light = Rc::clone(&light);
+        move |instant: Instant| {
+            light.borrow_mut().push(instant.radiosity().map(Iterator::collect).collect());
+        }
+    };
+    let outcome = network::rung(run, &machine, point)
+        .and_then(|rung| Ok(machine.network_on(rung)?))
+        .and_then(|network| virtwall::visit_instants(run, &machine, network, times, visit))
+        .map_err(|error| error.to_string())?;
+    Ok((light.take(), outcome.time))
+}
+
+/// Shots after which a scene counts as solved.
+const MOST_SHOTS: u64 = 5_000;
+
+/// The light in a problem of one environment when less than a part of it is unshot, or after so many
+/// shots; and the part that is unshot.
+pub fn solved(problem: &Problem, unshot: f64) -> (Light, f64) {
+    let whole = &problem.environments[0];
+    let (light, _) =
+        radiosity::solve(&problem.space, whole, &problem.hemisphere, unshot, MOST_SHOTS);
+    let patches = 0..whole.patches.len() as u32;
+    let radiosity = patches.map(|patch| light.radiosity(whole, patch)).collect();
+    let emitted = problem.emitted_power().element_sum();
+    let left = light.unshot_power().element_sum();
+    (vec![radiosity], if emitted > 0.0 { left / emitted } else { 0.0 })
 }
 
 /// The outcome's figures; times only if they are virtual.
@@ -192,6 +244,7 @@ fn figures(problem: &Problem, outcome: &Outcome, virtual_time: bool) -> Figures 
         network: None,
         memory: node_memory::figures(outcome),
         message_layer: None,
+        errors: None,
         display: outcome.display.as_ref().map(DisplayFigures::of),
         start_up: None,
         work: outcome.work.counts().map(|(op, n)| (op.name().to_owned(), n)).collect(),
@@ -219,5 +272,6 @@ fn rules(point: &Experiment) -> Rules {
             fields::Mapping::Cyclic => virtwall::Mapping::Cyclic,
             fields::Mapping::Random => virtwall::Mapping::Random(point.seed),
         },
+        shooting: knobs::shooting(point),
     }
 }

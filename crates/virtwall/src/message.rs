@@ -36,6 +36,14 @@ pub struct Parcel {
     pub form_factor: f64,
 }
 
+impl Parcel {
+    /// Whether the emitter lies in the environment that the source is shot in. What has left an
+    /// environment never comes back: it is a box, and rays are straight.
+    pub fn is_local(&self) -> bool {
+        self.environment == self.source.environment
+    }
+}
+
 /// One patch of an update.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PatchUpdate {
@@ -60,6 +68,56 @@ pub struct Sums {
     pub taken: f64,
 }
 
+/// What a message is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum MessageKind {
+    /// [`Message::Source`].
+    Source,
+    /// [`Message::Update`].
+    Update,
+    /// [`Message::Collect`].
+    Collect,
+    /// [`Message::Sums`].
+    Sums,
+    /// [`Message::StopSelecting`].
+    StopSelecting,
+    /// [`Message::Token`].
+    Token,
+    /// [`Message::Done`].
+    Done,
+}
+
+impl MessageKind {
+    /// Every kind, in the order of the bytes with which messages begin.
+    pub const ALL: [MessageKind; 7] = [
+        MessageKind::Source,
+        MessageKind::Update,
+        MessageKind::Collect,
+        MessageKind::Sums,
+        MessageKind::StopSelecting,
+        MessageKind::Token,
+        MessageKind::Done,
+    ];
+
+    /// The kind of an encoded message.
+    pub fn of(bytes: &[u8]) -> Option<MessageKind> {
+        MessageKind::ALL.get(usize::from(*bytes.first()?)).copied()
+    }
+
+    /// Its name, for people.
+    pub fn name(self) -> &'static str {
+        match self {
+            MessageKind::Source => "source",
+            MessageKind::Update => "update",
+            MessageKind::Collect => "collect",
+            MessageKind::Sums => "sums",
+            MessageKind::StopSelecting => "stop selecting",
+            MessageKind::Token => "token",
+            MessageKind::Done => "done",
+        }
+    }
+}
+
 /// Bytes that are not a message.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 #[error("not a message: {0}")]
@@ -71,7 +129,8 @@ impl Message {
         let mut to = Vec::new();
         match self {
             Message::Source(parcel) => {
-                to.reserve(160 + parcel.mask.words().len() * 8);
+                let bits = parcel.mask.pixels() / parcel.mask.pixels_a_bit();
+                to.reserve(160 + bits as usize / 8);
                 to.push(0);
                 encode_parcel(parcel, &mut to);
             }
@@ -131,15 +190,20 @@ impl Message {
     }
 }
 
+/// Bits of a message that hold the number of pixels; [`radiosity::MOST_PIXELS`] fits them.
+const PIXEL_BITS: u32 = 25;
+
 fn encode_parcel(parcel: &Parcel, to: &mut Vec<u8>) {
     let Parcel { environment, source, mask, form_factor } = parcel;
-    let numbers = [*environment, source.environment, source.patch, source.polygon, mask.pixels()];
+    // Pixels take 25 bits; above them stands how many share a bit.
+    let pixels = mask.pixels() | mask.pixels_a_bit().trailing_zeros() << PIXEL_BITS;
+    let numbers = [*environment, source.environment, source.patch, source.polygon, pixels];
     numbers.iter().for_each(|n| to.extend(n.to_le_bytes()));
     for vector in [source.centre, source.normal, source.power, source.radiosity] {
         vector.to_array().iter().for_each(|x| to.extend(x.to_le_bytes()));
     }
     to.extend(form_factor.to_le_bytes());
-    mask.words().iter().for_each(|word| to.extend(word.to_le_bytes()));
+    mask.travelling().iter().for_each(|word| to.extend(word.to_le_bytes()));
 }
 
 fn decode_parcel(from: &mut Reader) -> Result<Parcel, DecodeError> {
@@ -157,7 +221,8 @@ fn decode_parcel(from: &mut Reader) -> Result<Parcel, DecodeError> {
     let form_factor = from.f64()?;
     let words = std::mem::take(&mut from.0);
     let words = words.chunks(8).map(|chunk| Reader(chunk).take().map(u64::from_le_bytes));
-    let mask = Mask::from_words(words.collect::<Result<_, _>>()?, pixels)
+    let (pixels, logarithm) = (pixels & ((1 << PIXEL_BITS) - 1), pixels >> PIXEL_BITS);
+    let mask = Mask::arrived(words.collect::<Result<_, _>>()?, pixels, 1 << logarithm)
         .ok_or(DecodeError("mask and pixels differ"))?;
     Ok(Parcel { environment, source, mask, form_factor })
 }
@@ -232,7 +297,21 @@ mod tests {
             Message::Token(false),
             Message::Done,
         ] {
-            assert_eq!(Message::decode(&message.encode()).unwrap(), message);
+            let bytes = message.encode();
+            assert_eq!(Message::decode(&bytes).unwrap(), message);
+            assert!(kinds_match(&message, MessageKind::of(&bytes).unwrap()));
+        }
+    }
+
+    fn kinds_match(message: &Message, kind: MessageKind) -> bool {
+        match message {
+            Message::Source(_) => kind == MessageKind::Source,
+            Message::Update(_) => kind == MessageKind::Update,
+            Message::Collect => kind == MessageKind::Collect,
+            Message::Sums(_) => kind == MessageKind::Sums,
+            Message::StopSelecting => kind == MessageKind::StopSelecting,
+            Message::Token(_) => kind == MessageKind::Token,
+            Message::Done => kind == MessageKind::Done,
         }
     }
 

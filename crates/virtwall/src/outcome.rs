@@ -4,6 +4,7 @@ use desim::{Duration, Time};
 use multicomputer::LayerAccount;
 use radiosity::{Rgb, Work};
 
+use crate::ambient;
 use crate::compute_node::ComputeNode;
 use crate::counts::Counts;
 use crate::display::DisplayReport;
@@ -28,7 +29,7 @@ pub struct Outcome {
     pub nodes: Vec<NodeReport>,
     /// What became of the updates for the display, where one is modelled.
     pub display: Option<DisplayReport>,
-    /// Radiosity in W/m², by environment and patch.
+    /// Radiosity in W/m², by environment and patch, with the ambient term if the rules say so.
     pub radiosity: Vec<Vec<Rgb>>,
 }
 
@@ -118,6 +119,9 @@ impl Outcome {
             }
             report.local_shots = node.tally.counts.local_shots;
             report.received_shots = node.tally.counts.received_shots;
+        }
+        if nodes[0].shared.rules.shooting.ambient {
+            ambient::add(problem, energy.unshot + energy.in_transit, &mut radiosity);
         }
         Outcome {
             time,
