@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use multicomputer::Machine;
-use radiosity::{Hemisphere, HemisphereKind, Operation, PatchSize, Rgb};
+use radiosity::{
+    Hemisphere, HemisphereKind, Operation, PatchSize, Rgb, VirtualWalls, VirtualWallsError,
+};
 use serde::Serialize;
 use virtwall::{
     Ending, KeptShots, Outcome, Problem, ProblemError, ProblemOptions, Rules, Run, Thing,
@@ -13,6 +15,7 @@ use crate::experiment::{self as fields, Experiment};
 use crate::fault::Fault;
 use crate::figures::{Energy, Figures};
 use crate::find::Found;
+use crate::interfaces::WallMesh;
 use crate::machine_file::MachineFile;
 use crate::message_layer::{self, MessageLayerFigures};
 use crate::network;
@@ -83,11 +86,27 @@ pub fn problem(scene: &radiosity::Scene, settings: &Settings) -> Result<Arc<Prob
         cut: settings.cut.0,
         hemisphere,
     };
-    Problem::new(scene.clone(), options).map(Arc::new).map_err(|error| {
+    let problem = Problem::new(scene.clone(), options).map_err(|error| {
         let field = match error {
             ProblemError::Cells(_) => "cells",
             ProblemError::Cut { .. } => "cut",
             ProblemError::PatchSize(..) => "patch_size",
+        };
+        (field, error.to_string())
+    })?;
+    Ok(Arc::new(match settings.virtual_walls {
+        Some(mesh) => problem.with_walls(walls(mesh)?),
+        None => problem,
+    }))
+}
+
+/// The virtual walls of a mesh.
+fn walls(mesh: WallMesh) -> Result<VirtualWalls, WrongField> {
+    VirtualWalls::new(mesh.patches.0, mesh.directions, mesh.rays).map_err(|error| {
+        let field = match error {
+            VirtualWallsError::Patches(..) => "virtual_walls.patches",
+            VirtualWallsError::Directions(_) => "virtual_walls.directions",
+            VirtualWallsError::Rays(..) => "virtual_walls.rays",
         };
         (field, error.to_string())
     })
@@ -180,6 +199,7 @@ fn rules(point: &Experiment) -> Rules {
         patch_threshold: point.stop.patch_threshold.value(),
         energy_threshold: point.stop.energy_threshold.value(),
         collect_every: desim::Duration::from_seconds_f64(point.stop.collect_every.value()),
+        wall_threshold: point.virtual_walls.threshold.value(),
         radiosity_updates: point.radiosity_updates,
         merge_masks: point.merge_masks,
         mapping: match point.mapping {

@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
+use crate::interfaces::{Interfaces, VirtualWalls};
 use crate::node_memory::NodeMemoryFields;
 use crate::quantity::{Fraction, Length, Period, Triple};
 use crate::schema;
@@ -79,6 +80,12 @@ pub struct Experiment {
     /// The hemisphere of rays over a source.
     #[serde(default)]
     pub hemisphere: Hemisphere,
+    /// What carries light across from one local environment to the next.
+    #[serde(default, skip_serializing_if = "Interfaces::are_masks")]
+    pub interfaces: Interfaces,
+    /// How virtual walls are meshed, where they stand in place of masks.
+    #[serde(default, skip_serializing_if = "VirtualWalls::are_default")]
+    pub virtual_walls: VirtualWalls,
     /// Which source a node shoots next. Choice C4: §3.2 says the most unshot energy, §4.2.2 the
     /// greatest delta-radiosity.
     #[serde(default)]

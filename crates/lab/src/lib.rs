@@ -22,6 +22,7 @@ mod held;
 mod host_clock;
 mod host_memory;
 mod host_times;
+mod interfaces;
 mod json;
 mod machine_file;
 mod measure;

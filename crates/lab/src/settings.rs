@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::cut::{automatic_cells, automatic_cut};
 use crate::experiment::{Directions, Experiment};
+use crate::interfaces::WallMesh;
 use crate::quantity::Triple;
 use crate::scene::Scene;
 
@@ -37,6 +38,9 @@ pub struct Settings {
     pub pixels: u32,
     /// Whether each source turns them.
     pub rotated: bool,
+    /// Virtual walls in place of masks.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub virtual_walls: Option<WallMesh>,
 }
 
 impl Settings {
@@ -67,6 +71,7 @@ impl Settings {
             directions: point.hemisphere.directions,
             pixels: point.hemisphere.pixels,
             rotated: point.hemisphere.rotated,
+            virtual_walls: WallMesh::of(point)?,
         })
     }
 }

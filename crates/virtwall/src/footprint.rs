@@ -86,11 +86,17 @@ impl Footprint {
             .with(Thing::CellEntry, entries)
             .with(Thing::Polygon, environment.polygons())
             .with(Thing::Patch, environment.patches.len())
+            .with(Thing::MaskWord, problem.wall_bins(number) * 3)
     }
 
     /// A source that waits in a queue.
-    pub(crate) fn of_source(parcel: &Parcel) -> Footprint {
-        let words = parcel.mask.pixels().div_ceil(32) as usize;
+    pub(crate) fn of_source(sources: &[Parcel]) -> Footprint {
+        // Of a wall patch three colours a bin, in single precision.
+        let words = |parcel: &Parcel| match parcel.source.is_of_a_wall() {
+            true => 3,
+            false => parcel.mask.pixels().div_ceil(32) as usize,
+        };
+        let words = sources.iter().map(words).sum();
         Footprint::default().with(Thing::Source, 1).with(Thing::MaskWord, words)
     }
 

@@ -9,6 +9,8 @@ use thiserror::Error;
 pub enum Message {
     /// A source and its mask for one environment of the receiver (§4.2.3).
     Source(Box<Parcel>),
+    /// What a wall patch has gathered, where virtual walls stand in place of masks.
+    WallPatch(Box<WallPatch>),
     /// Radiosities of patches that a shot changed, for the display (Figure 6, `send_to_host`).
     Update(Vec<PatchUpdate>),
     /// The service node asks for sums of energy.
@@ -34,6 +36,26 @@ pub struct Parcel {
     pub mask: Mask,
     /// Their form factor together.
     pub form_factor: f64,
+}
+
+/// A wall patch on its way to the environment behind it, which knows where it lies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WallPatch {
+    /// Where it goes.
+    pub environment: u32,
+    /// The side of that environment by which light enters, by [`Side::index`](radiosity::Side::index).
+    pub side: u8,
+    /// The wall patch of that side.
+    pub patch: u32,
+    /// Power in each bin of directions, W.
+    pub power: Vec<[f32; 3]>,
+}
+
+impl WallPatch {
+    /// Words of 8 bytes that its bins take.
+    pub(crate) fn words(&self) -> u64 {
+        (self.power.len() as u64 * 12).div_ceil(8)
+    }
 }
 
 /// One patch of an update.
@@ -95,6 +117,10 @@ impl Message {
             Message::StopSelecting => to.push(4),
             Message::Token(value) => to.extend([5, u8::from(*value)]),
             Message::Done => to.push(6),
+            Message::WallPatch(wall_patch) => {
+                to.push(7);
+                encode_wall_patch(wall_patch, &mut to);
+            }
         }
         to
     }
@@ -125,6 +151,7 @@ impl Message {
             4 => Message::StopSelecting,
             5 => Message::Token(from.byte()? != 0),
             6 => Message::Done,
+            7 => Message::WallPatch(Box::new(decode_wall_patch(&mut from)?)),
             _ => return Err(DecodeError("unknown kind")),
         };
         if from.0.is_empty() { Ok(message) } else { Err(DecodeError("bytes left over")) }
@@ -160,6 +187,33 @@ fn decode_parcel(from: &mut Reader) -> Result<Parcel, DecodeError> {
     let mask = Mask::from_words(words.collect::<Result<_, _>>()?, pixels)
         .ok_or(DecodeError("mask and pixels differ"))?;
     Ok(Parcel { environment, source, mask, form_factor })
+}
+
+/// A bit a bin tells whether it holds power; only the power of those that do follows.
+fn encode_wall_patch(wall_patch: &WallPatch, to: &mut Vec<u8>) {
+    let WallPatch { environment, side, patch, power } = wall_patch;
+    to.extend(environment.to_le_bytes());
+    to.push(*side);
+    to.extend(patch.to_le_bytes());
+    to.extend((power.len() as u16).to_le_bytes());
+    for bins in power.chunks(8) {
+        let held = bins.iter().zip(0..).map(|(&power, i)| u8::from(power != [0.0; 3]) << i);
+        to.push(held.fold(0, |all, bit| all | bit));
+    }
+    let held = power.iter().filter(|&&power| power != [0.0; 3]);
+    held.flatten().for_each(|x| to.extend(x.to_le_bytes()));
+}
+
+fn decode_wall_patch(from: &mut Reader) -> Result<WallPatch, DecodeError> {
+    let (environment, side, patch) = (from.u32()?, from.byte()?, from.u32()?);
+    let bins = usize::from(u16::from_le_bytes(from.take()?));
+    let held = (0..bins.div_ceil(8)).map(|_| from.byte()).collect::<Result<Vec<u8>, _>>()?;
+    let power = (0..bins).map(|bin| match held[bin / 8] >> (bin % 8) & 1 {
+        0 => Ok([0.0; 3]),
+        _ => Ok([from.f32()?, from.f32()?, from.f32()?]),
+    });
+    let power = power.collect::<Result<_, _>>()?;
+    Ok(WallPatch { environment, side, patch, power })
 }
 
 /// Bytes not read yet.
@@ -216,6 +270,21 @@ mod tests {
         Message::Source(Box::new(Parcel { environment: 8, source, mask, form_factor: 0.25 }))
     }
 
+    /// Every third bin is empty.
+    fn wall_patch(bins: usize) -> Message {
+        let power = (0..bins).map(|bin| [(bin % 3) as f32; 3]).collect();
+        Message::WallPatch(Box::new(WallPatch { environment: 8, side: 5, patch: 77, power }))
+    }
+
+    /// A wall patch takes 12 bytes for each bin that holds power, a bit for each that could, and 12.
+    #[test]
+    fn a_wall_patch_takes_what_its_bins_take() {
+        for (bins, held) in [(1, 0), (4, 2), (16, 10), (64, 42), (4_096, 2_730)] {
+            let bytes = wall_patch(bins).encode().len();
+            assert_eq!(bytes, 12 + bins.div_ceil(8) + held * 12, "{bins}");
+        }
+    }
+
     #[test]
     fn every_message_comes_back_as_it_was() {
         let update =
@@ -231,6 +300,8 @@ mod tests {
             Message::Token(true),
             Message::Token(false),
             Message::Done,
+            wall_patch(1),
+            wall_patch(65),
         ] {
             assert_eq!(Message::decode(&message.encode()).unwrap(), message);
         }
@@ -246,9 +317,10 @@ mod tests {
 
     #[test]
     fn bytes_that_are_no_message_are_refused() {
-        let whole = parcel(65).encode();
-        for length in 0..whole.len() {
-            assert!(Message::decode(&whole[..length]).is_err(), "{length}");
+        for whole in [parcel(65).encode(), wall_patch(65).encode()] {
+            for length in 0..whole.len() {
+                assert!(Message::decode(&whole[..length]).is_err(), "{length}");
+            }
         }
         assert!(Message::decode(&[6, 6]).is_err());
         assert!(Message::decode(&[99]).is_err());

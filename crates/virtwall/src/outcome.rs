@@ -36,7 +36,7 @@ pub struct EnergyLedger {
     pub emitted: Rgb,
     /// Absorbed by patches and by backs of polygons.
     pub absorbed: Rgb,
-    /// On patches, not shot.
+    /// On patches, and gathered by virtual walls, not shot.
     pub unshot: Rgb,
     /// In sources handed on and not shot again.
     pub in_transit: Rgb,
@@ -104,6 +104,7 @@ impl Outcome {
             work += node.tally.work;
             pending += node.tally.parcels_sent as i64 - node.tally.parcels_taken as i64;
             energy.in_transit += node.tally.sent - node.tally.taken;
+            energy.unshot += node.region.gathered_power();
             for (environment, light) in node.region.lights() {
                 energy.absorbed += light.absorbed;
                 energy.escaped += light.escaped;

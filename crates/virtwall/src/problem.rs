@@ -1,10 +1,13 @@
 //! A scene made ready: meshed, cut into environments, with its hemisphere.
 
-use radiosity::{Hemisphere, LocalEnvironment, PatchSize, Rgb, Scene, Shot, Side, Space};
+use radiosity::{
+    Bounds, Hemisphere, LocalEnvironment, Mask, PatchSize, Rgb, Scene, Shot, Side, Source, Space,
+    VirtualWalls,
+};
 use thiserror::Error;
 
 use crate::decomposition::Decomposition;
-use crate::message::Parcel;
+use crate::message::{Parcel, WallPatch};
 
 /// How a scene is meshed and cut.
 #[derive(Clone, Debug)]
@@ -51,6 +54,8 @@ pub struct Problem {
     pub environments: Vec<LocalEnvironment>,
     /// The hemisphere over every source.
     pub hemisphere: Hemisphere,
+    /// Virtual walls between environments; without them masks carry the light across.
+    pub walls: Option<VirtualWalls>,
 }
 
 impl Problem {
@@ -75,7 +80,12 @@ impl Problem {
         let environments = (0..decomposition.environments())
             .map(|e| LocalEnvironment::new(&space, decomposition.block(e), patch_size))
             .collect();
-        Ok(Problem { space, decomposition, environments, hemisphere })
+        Ok(Problem { space, decomposition, environments, hemisphere, walls: None })
+    }
+
+    /// The same with virtual walls in place of masks.
+    pub fn with_walls(self, walls: VirtualWalls) -> Problem {
+        Problem { walls: Some(walls), ..self }
     }
 
     /// Number of patches in all environments.
@@ -83,17 +93,50 @@ impl Problem {
         self.environments.iter().map(|e| e.patches.len()).sum()
     }
 
-    /// A source with what is left of its mask, for each neighbour that it enters (§4.2.3).
+    /// A source with what is left of its mask, for each neighbour that it enters (§4.2.3); for none where
+    /// virtual walls gather what leaves.
     pub(crate) fn onward(&self, parcel: &Parcel, shot: &Shot) -> impl Iterator<Item = Parcel> {
-        let (from, source) = (parcel.environment, parcel.source);
+        let (from, source, masks) = (parcel.environment, parcel.source, self.walls.is_none());
         Side::ALL.into_iter().zip(&shot.outgoing).filter_map(move |(side, outgoing)| {
-            outgoing.as_ref().map(|outgoing| Parcel {
+            outgoing.as_ref().filter(|_| masks).map(|outgoing| Parcel {
                 environment: self.decomposition.neighbour(from, side),
                 source,
                 mask: outgoing.mask.clone(),
                 form_factor: outgoing.form_factor,
             })
         })
+    }
+
+    /// The sources that a wall patch is for the environment behind it: its bins that hold power.
+    pub(crate) fn bins_of(&self, wall_patch: &WallPatch) -> Vec<Parcel> {
+        let WallPatch { environment, side, patch, power } = wall_patch;
+        let Some(walls) = &self.walls else { return Vec::new() };
+        let (around, side) = (self.bounds(*environment), Side::ALL[usize::from(*side)]);
+        let powers = (0u32..).zip(power).filter(|(_, power)| **power != [0.0; 3]);
+        let bin = |(bin, power): (u32, &[f32; 3])| {
+            let power = Rgb::from_array(power.map(f64::from));
+            let source = walls.source(&around, side, [*patch, bin], power);
+            let mask = Mask::all(self.rays_of(&source).pixels());
+            Parcel { environment: *environment, source, mask, form_factor: 1.0 }
+        };
+        powers.map(bin).collect()
+    }
+
+    /// Bins of directions on all virtual walls of an environment.
+    pub(crate) fn wall_bins(&self, environment: u32) -> usize {
+        let environment = &self.environments[environment as usize];
+        let sides = Side::ALL.iter().filter(|&&side| environment.has_neighbour(side)).count();
+        self.walls.as_ref().map_or(0, |walls| sides * (walls.patches() * walls.bins()) as usize)
+    }
+
+    /// The rays over a source, a pixel of its mask each.
+    pub(crate) fn rays_of(&self, source: &Source) -> &Hemisphere {
+        self.walls.as_ref().and_then(|walls| walls.rays_of(source)).unwrap_or(&self.hemisphere)
+    }
+
+    /// Where an environment lies.
+    pub(crate) fn bounds(&self, environment: u32) -> Bounds {
+        self.space.grid.bounds(&self.environments[environment as usize].block)
     }
 
     /// Power that the scene emits, W.

@@ -48,6 +48,7 @@ fn bytes(floors: u16) -> [f64; 3] {
         selection: Selection::Energy,
         ties: Ties::ReceivedFirst,
         patch_threshold: 0.1,
+        wall_threshold: 0.0,
         energy_threshold: 0.0,
         collect_every: Duration::from_seconds_f64(1.0),
         radiosity_updates: true,
