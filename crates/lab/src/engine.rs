@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use multicomputer::Machine;
 use radiosity::{
-    Hemisphere, HemisphereKind, Operation, PatchSize, Rgb, VirtualWalls, VirtualWallsError,
+    DepthBits, Hemisphere, HemisphereKind, Operation, PatchSize, Rgb, VirtualWalls,
+    VirtualWallsError,
 };
 use serde::Serialize;
 use virtwall::{
@@ -94,10 +95,18 @@ pub fn problem(scene: &radiosity::Scene, settings: &Settings) -> Result<Arc<Prob
         };
         (field, error.to_string())
     })?;
+    let problem = match settings.mask_bits {
+        Some(bits) => problem.with_depth_bits(depth_bits(bits)?),
+        None => problem,
+    };
     Ok(Arc::new(match settings.virtual_walls {
         Some(mesh) => problem.with_walls(walls(mesh)?),
         None => problem,
     }))
+}
+
+fn depth_bits(bits: u32) -> Result<DepthBits, WrongField> {
+    DepthBits::of(bits).ok_or_else(|| ("mask_bits", format!("{bits} bits; expected 8 or 16")))
 }
 
 /// The virtual walls of a mesh.
@@ -172,6 +181,7 @@ fn figures(problem: &Problem, outcome: &Outcome, virtual_time: bool) -> Figures 
             unshot: share(energy.unshot),
             in_transit: share(energy.in_transit),
             escaped: share(energy.escaped),
+            medium: share(energy.medium),
         },
         too_early: match outcome.ending {
             Ending::Agreed => None,

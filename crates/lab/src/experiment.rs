@@ -86,6 +86,11 @@ pub struct Experiment {
     /// How virtual walls are meshed, where they stand in place of masks.
     #[serde(default, skip_serializing_if = "VirtualWalls::are_default")]
     pub virtual_walls: VirtualWalls,
+    /// Bits of an integer of a mask where the scene has media: 8 or 16, 16 by default. Choice C42: the paper
+    /// has such masks in sight and says no more (§3.2).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 8, max = 16))]
+    pub mask_bits: Option<u32>,
     /// Which source a node shoots next. Choice C4: §3.2 says the most unshot energy, §4.2.2 the
     /// greatest delta-radiosity.
     #[serde(default)]

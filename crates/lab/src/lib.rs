@@ -26,6 +26,7 @@ mod interfaces;
 mod json;
 mod machine_file;
 mod measure;
+mod medium;
 mod message_layer;
 mod network;
 mod networks;

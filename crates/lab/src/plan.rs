@@ -51,6 +51,7 @@ impl Plan {
         Also {
             network: self.runs.iter().any(|run| network::tells(machine(run), run.point.network)),
             memory: self.runs.iter().any(|run| machine(run).node_memory.is_some()),
+            media: self.problems.iter().any(|p| !p.problem.space.scene.media.is_empty()),
             message_layer: self.runs.iter().any(|run| message_layer::tells(machine(run))),
         }
     }

@@ -81,6 +81,20 @@ impl Kind for SizeKind {
     }
 }
 
+/// An absorption of light a metre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AbsorptionKind;
+
+impl Kind for AbsorptionKind {
+    const NAME: &'static str = "an absorption";
+    const DIMENSION: Dimension = Dimension::PerLength;
+    const EXAMPLE: &'static str = "0.5 /m";
+    const RANGE: &'static str = "from 0 /m to 1e9 /m";
+    fn allows(value: f64) -> bool {
+        (0.0..=1e9).contains(&value)
+    }
+}
+
 /// A number with its unit, as text in a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quantity<K> {
@@ -95,6 +109,8 @@ pub type Length = Quantity<LengthKind>;
 pub type Fraction = Quantity<FractionKind>;
 /// A span of virtual time, in seconds.
 pub type Period = Quantity<PeriodKind>;
+/// An absorption of light, 1/m.
+pub type Absorption = Quantity<AbsorptionKind>;
 /// A size of memory, in bytes.
 pub type Size = Quantity<SizeKind>;
 
@@ -111,7 +127,7 @@ impl<K: Kind> Quantity<K> {
         Ok(Quantity { text: text.to_owned(), value, kind: PhantomData })
     }
 
-    /// The value in the base unit: metres, seconds, bytes, or a fraction of 1.
+    /// The value in the base unit: metres, 1/m, seconds, bytes, or a fraction of 1.
     pub fn value(&self) -> f64 {
         self.value
     }

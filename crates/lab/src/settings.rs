@@ -41,6 +41,9 @@ pub struct Settings {
     /// Virtual walls in place of masks.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub virtual_walls: Option<WallMesh>,
+    /// Bits of an integer of a mask, if other than usual.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mask_bits: Option<u32>,
 }
 
 impl Settings {
@@ -72,6 +75,7 @@ impl Settings {
             pixels: point.hemisphere.pixels,
             rotated: point.hemisphere.rotated,
             virtual_walls: WallMesh::of(point)?,
+            mask_bits: point.mask_bits,
         })
     }
 }

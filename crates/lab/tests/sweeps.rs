@@ -89,6 +89,38 @@ fn rows_and_columns_follow_the_file() {
     }
 }
 
+/// Virtual walls are a sweep as any other; what media absorb is a column where there are any, and part of
+/// the balance.
+#[test]
+fn walls_and_media_can_be_swept() {
+    let project = Project::new(
+        r#"{ "title": "t", "scene": ["box", "fog"], "processors": 4, "local_environments": 4,
+            "hemisphere": { "pixels": 256 }, "mask_bits": [8, 16],
+            "interfaces": ["masks", "virtual_walls"],
+            "virtual_walls": { "patches": "2x2", "directions": 4 } }"#,
+    );
+    let fog = r#"{ "obj": "box.obj", "patch_size": "1 m", "cells": "8x4x4", "cuts": {"4": "4x1x1"},
+        "media": [{ "min": [0, 0, 0], "max": [4, 2, 1], "absorption": "0.3 /m" }] }"#;
+    project.write("scenes/fog.json", fog);
+    let (results, ..) = carried_out(&plan(&project), &project.path("out"), &options(1));
+    let table = &results.table;
+    assert_eq!(table.columns.last().unwrap(), "absorbed_by_media");
+    assert_eq!(table.rows.len(), 8);
+    for row in &table.rows {
+        let number = |name| table.number(row, name).unwrap();
+        assert!(number("energy_error") <= 1e-9);
+        let fog = table.cell(row, "scene") == "fog";
+        assert_eq!(number("absorbed_by_media") > 0.05, fog);
+        // Masks of integers take as many bytes as they have bits; walls no more than they hold.
+        if table.cell(row, "interfaces") == "masks" {
+            let bits = if fog { number("mask_bits") } else { 1.0 };
+            assert_eq!(number("message_bytes"), number("messages") * (125.0 + 256.0 * bits / 8.0));
+        } else {
+            assert!(number("message_bytes") <= number("messages") * (12.0 + 2.0 + 16.0 * 12.0));
+        }
+    }
+}
+
 #[test]
 fn a_sweep_goes_on_where_it_was() {
     let project = Project::new(SWEEP);

@@ -84,7 +84,7 @@ impl Hemisphere {
                 hemicube(side)
             }
         };
-        Ok(Hemisphere::of(directions, weights, rotated))
+        Ok(Hemisphere::of(&directions, &weights, rotated))
     }
 
     /// Bin `bin` of the `n` × `n` of a concentric square of directions, with `side` × `side` rays.
@@ -93,13 +93,13 @@ impl Hemisphere {
             |j: u32| (0..side).map(move |i| (bin / n * side + j) * n * side + bin % n * side + i);
         let pixels = (0..side).flat_map(row);
         let (directions, weights) = equal(pixels.map(|i| concentric_pixel(n * side, i)).collect());
-        Hemisphere::of(directions, weights, false)
+        Hemisphere::of(&directions, &weights, false)
     }
 
     /// A hemisphere of these directions, put in order.
-    fn of(directions: Vec<DVec3>, weights: Vec<f64>, rotated: bool) -> Hemisphere {
+    fn of(directions: &[DVec3], weights: &[f64], rotated: bool) -> Hemisphere {
         let mut order: Vec<u32> = (0..directions.len() as u32).collect();
-        group(&mut order, &directions);
+        group(&mut order, directions);
         let directions: Vec<DVec3> = order.iter().map(|&i| directions[i as usize]).collect();
         let weights: Vec<f64> = order.iter().map(|&i| weights[i as usize]).collect();
         let sums = weights.iter().all(|&weight| weight == weights[0]).then(|| {

@@ -150,7 +150,8 @@ impl VirtualWalls {
             let distance = (plane - source.centre[side.axis]) / direction[side.axis];
             let distance = if distance.is_finite() { distance } else { 0.0 };
             let patch = self.patch_at(around, side, source.centre + direction * distance);
-            told([patch, self.bin_of(side, direction)], hemisphere.weights[pixel as usize]);
+            let left = hemisphere.weights[pixel as usize] * mask.transmittance(pixel);
+            told([patch, self.bin_of(side, direction)], left);
         }
     }
 

@@ -94,7 +94,7 @@ impl Footprint {
         // Of a wall patch three colours a bin, in single precision.
         let words = |parcel: &Parcel| match parcel.source.is_of_a_wall() {
             true => 3,
-            false => parcel.mask.pixels().div_ceil(32) as usize,
+            false => (parcel.mask.pixels().div_ceil(32) * parcel.mask.bits_a_pixel()) as usize,
         };
         let words = sources.iter().map(words).sum();
         Footprint::default().with(Thing::Source, 1).with(Thing::MaskWord, words)

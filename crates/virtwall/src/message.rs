@@ -1,7 +1,7 @@
 //! The wire format of everything that processes send.
 
 use radiosity::glam::DVec3;
-use radiosity::{Mask, Source};
+use radiosity::{DepthBits, Mask, Source};
 use thiserror::Error;
 
 /// A message between processes.
@@ -93,8 +93,9 @@ impl Message {
         let mut to = Vec::new();
         match self {
             Message::Source(parcel) => {
-                to.reserve(160 + parcel.mask.words().len() * 8);
-                to.push(0);
+                to.reserve(160 + (parcel.mask.pixels() * parcel.mask.bits_a_pixel() / 8) as usize);
+                // Where media dim light, the kind tells how many bits an integer of the mask has.
+                to.push(parcel.mask.depth_bits().map_or(0, |bits| bits.bits() as u8));
                 encode_parcel(parcel, &mut to);
             }
             Message::Update(patches) => {
@@ -129,7 +130,9 @@ impl Message {
     pub fn decode(bytes: &[u8]) -> Result<Message, DecodeError> {
         let mut from = Reader(bytes);
         let message = match from.byte()? {
-            0 => Message::Source(Box::new(decode_parcel(&mut from)?)),
+            kind @ (0 | 8 | 16) => {
+                Message::Source(Box::new(decode_parcel(&mut from, DepthBits::of(kind.into()))?))
+            }
             1 => {
                 let mut patches = Vec::with_capacity(bytes.len() / 20);
                 while !from.0.is_empty() {
@@ -166,10 +169,16 @@ fn encode_parcel(parcel: &Parcel, to: &mut Vec<u8>) {
         vector.to_array().iter().for_each(|x| to.extend(x.to_le_bytes()));
     }
     to.extend(form_factor.to_le_bytes());
-    mask.words().iter().for_each(|word| to.extend(word.to_le_bytes()));
+    match mask.steps() {
+        None => mask.words().iter().for_each(|word| to.extend(word.to_le_bytes())),
+        Some((steps, DepthBits::Eight)) => to.extend(steps.iter().map(|&steps| steps as u8)),
+        Some((steps, DepthBits::Sixteen)) => {
+            steps.iter().for_each(|steps| to.extend(steps.to_le_bytes()));
+        }
+    }
 }
 
-fn decode_parcel(from: &mut Reader) -> Result<Parcel, DecodeError> {
+fn decode_parcel(from: &mut Reader, bits: Option<DepthBits>) -> Result<Parcel, DecodeError> {
     let (environment, source_environment) = (from.u32()?, from.u32()?);
     let (patch, polygon, pixels) = (from.u32()?, from.u32()?, from.u32()?);
     let source = Source {
@@ -182,10 +191,22 @@ fn decode_parcel(from: &mut Reader) -> Result<Parcel, DecodeError> {
         radiosity: from.vector()?,
     };
     let form_factor = from.f64()?;
-    let words = std::mem::take(&mut from.0);
-    let words = words.chunks(8).map(|chunk| Reader(chunk).take().map(u64::from_le_bytes));
-    let mask = Mask::from_words(words.collect::<Result<_, _>>()?, pixels)
-        .ok_or(DecodeError("mask and pixels differ"))?;
+    let rest = std::mem::take(&mut from.0);
+    let mask = match bits {
+        None => {
+            let words = rest.chunks(8).map(|chunk| Reader(chunk).take().map(u64::from_le_bytes));
+            Mask::from_words(words.collect::<Result<_, _>>()?, pixels)
+        }
+        Some(bits) => {
+            let steps = rest.chunks(bits.bits() as usize / 8).map(|chunk| match chunk {
+                &[steps] if bits == DepthBits::Eight => Ok(u16::from(steps)),
+                chunk => Reader(chunk).u16(),
+            });
+            Mask::from_steps(steps.collect::<Result<_, _>>()?, bits)
+                .filter(|mask| mask.pixels() == pixels)
+        }
+    };
+    let mask = mask.ok_or(DecodeError("mask and pixels differ"))?;
     Ok(Parcel { environment, source, mask, form_factor })
 }
 
@@ -206,7 +227,7 @@ fn encode_wall_patch(wall_patch: &WallPatch, to: &mut Vec<u8>) {
 
 fn decode_wall_patch(from: &mut Reader) -> Result<WallPatch, DecodeError> {
     let (environment, side, patch) = (from.u32()?, from.byte()?, from.u32()?);
-    let bins = usize::from(u16::from_le_bytes(from.take()?));
+    let bins = usize::from(from.u16()?);
     let held = (0..bins.div_ceil(8)).map(|_| from.byte()).collect::<Result<Vec<u8>, _>>()?;
     let power = (0..bins).map(|bin| match held[bin / 8] >> (bin % 8) & 1 {
         0 => Ok([0.0; 3]),
@@ -228,6 +249,10 @@ impl Reader<'_> {
 
     pub(crate) fn byte(&mut self) -> Result<u8, DecodeError> {
         self.take().map(|[byte]| byte)
+    }
+
+    pub(crate) fn u16(&mut self) -> Result<u16, DecodeError> {
+        self.take().map(u16::from_le_bytes)
     }
 
     pub(crate) fn u32(&mut self) -> Result<u32, DecodeError> {
@@ -258,6 +283,15 @@ mod tests {
     fn parcel(pixels: u32) -> Message {
         let mut mask = Mask::none(pixels);
         (0..pixels).step_by(3).for_each(|i| mask.set(i));
+        parcel_with(mask)
+    }
+
+    fn dimmed(pixels: u16, bits: DepthBits) -> Message {
+        let steps = (0..pixels).map(|i| if i % 3 == 0 { bits.hidden() } else { i % 200 });
+        parcel_with(Mask::from_steps(steps.collect(), bits).unwrap())
+    }
+
+    fn parcel_with(mask: Mask) -> Message {
         let source = Source {
             environment: 7,
             patch: 1_234,
@@ -300,6 +334,8 @@ mod tests {
             Message::Token(true),
             Message::Token(false),
             Message::Done,
+            dimmed(65, DepthBits::Eight),
+            dimmed(65, DepthBits::Sixteen),
             wall_patch(1),
             wall_patch(65),
         ] {
@@ -313,11 +349,15 @@ mod tests {
         let bytes = parcel(30_976).encode().len();
         assert_eq!(bytes, 1 + 5 * 4 + 4 * 24 + 8 + 3_872);
         assert!(bytes <= 4_096);
+        for (bits, more) in [(DepthBits::Eight, 30_976), (DepthBits::Sixteen, 2 * 30_976)] {
+            assert_eq!(dimmed(30_976, bits).encode().len(), bytes - 3_872 + more);
+        }
     }
 
     #[test]
     fn bytes_that_are_no_message_are_refused() {
-        for whole in [parcel(65).encode(), wall_patch(65).encode()] {
+        for whole in [parcel(65), wall_patch(65), dimmed(65, DepthBits::Sixteen)] {
+            let whole = whole.encode();
             for length in 0..whole.len() {
                 assert!(Message::decode(&whole[..length]).is_err(), "{length}");
             }

@@ -42,13 +42,15 @@ pub struct EnergyLedger {
     pub in_transit: Rgb,
     /// Gone out of the scene.
     pub escaped: Rgb,
+    /// Absorbed by participating media.
+    pub medium: Rgb,
 }
 
 impl EnergyLedger {
-    /// |emitted − (absorbed + unshot + in transit + escaped)| / emitted, colours summed; 0 when
+    /// |emitted − (absorbed + unshot + in transit + escaped + medium)| / emitted, colours summed; 0 when
     /// nothing is emitted.
     pub fn error(&self) -> f64 {
-        let found = self.absorbed + self.unshot + self.in_transit + self.escaped;
+        let found = self.absorbed + self.unshot + self.in_transit + self.escaped + self.medium;
         fraction((self.emitted - found).abs(), self.emitted)
     }
 }
@@ -108,6 +110,7 @@ impl Outcome {
             for (environment, light) in node.region.lights() {
                 energy.absorbed += light.absorbed;
                 energy.escaped += light.escaped;
+                energy.medium += light.medium;
                 energy.unshot += light.unshot_power();
                 let geometry = &problem.environments[environment as usize];
                 let patches = 0..geometry.patches.len() as u32;

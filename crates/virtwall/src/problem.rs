@@ -1,8 +1,8 @@
 //! A scene made ready: meshed, cut into environments, with its hemisphere.
 
 use radiosity::{
-    Bounds, Hemisphere, LocalEnvironment, Mask, PatchSize, Rgb, Scene, Shot, Side, Source, Space,
-    VirtualWalls,
+    Bounds, DepthBits, Hemisphere, LocalEnvironment, Mask, PatchSize, Rgb, Scene, Shot, Side,
+    Source, Space, VirtualWalls,
 };
 use thiserror::Error;
 
@@ -56,6 +56,8 @@ pub struct Problem {
     pub hemisphere: Hemisphere,
     /// Virtual walls between environments; without them masks carry the light across.
     pub walls: Option<VirtualWalls>,
+    /// Integers of masks, in a scene with participating media.
+    pub depth_bits: DepthBits,
 }
 
 impl Problem {
@@ -80,12 +82,25 @@ impl Problem {
         let environments = (0..decomposition.environments())
             .map(|e| LocalEnvironment::new(&space, decomposition.block(e), patch_size))
             .collect();
-        Ok(Problem { space, decomposition, environments, hemisphere, walls: None })
+        let (walls, depth_bits) = (None, DepthBits::Sixteen);
+        Ok(Problem { space, decomposition, environments, hemisphere, walls, depth_bits })
     }
 
     /// The same with virtual walls in place of masks.
     pub fn with_walls(self, walls: VirtualWalls) -> Problem {
         Problem { walls: Some(walls), ..self }
+    }
+
+    /// The same with other integers than of sixteen bits in masks, where there are media.
+    pub fn with_depth_bits(self, depth_bits: DepthBits) -> Problem {
+        Problem { depth_bits, ..self }
+    }
+
+    /// The mask that a patch shoots with: all visible, nothing dimmed (§3.3).
+    pub(crate) fn clear_mask(&self) -> Mask {
+        let mask = Mask::all(self.hemisphere.pixels());
+        let dims = !self.space.scene.media.is_empty() && self.walls.is_none();
+        if dims { mask.with_depths(self.depth_bits) } else { mask }
     }
 
     /// Number of patches in all environments.

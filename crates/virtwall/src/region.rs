@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use radiosity::{Greatest, Light, LocalEnvironment, Mask, Operation, Rgb, Shot, Work};
+use radiosity::{Greatest, Light, LocalEnvironment, Operation, Rgb, Shot, Work};
 
 use crate::gathered::Gathered;
 use crate::message::{Parcel, PatchUpdate, WallPatch};
@@ -134,7 +134,7 @@ impl Region {
         let Holding { environment, light, .. } = &self.holdings[holding];
         let geometry = &problem.environments[*environment as usize];
         let source = light.source(&problem.space, geometry, *environment, patch);
-        let mask = Mask::all(problem.hemisphere.pixels());
+        let mask = problem.clear_mask();
         Parcel { environment: *environment, source, mask, form_factor: 1.0 }
     }
 

@@ -61,5 +61,12 @@ fn digest(mask: &Mask) -> u128 {
         }
         hasher.update(&bytes[..words.len() * 8]);
     }
+    for steps in mask.steps().into_iter().flat_map(|(steps, _)| steps.chunks(256)) {
+        let mut bytes = [0; 512];
+        for (place, steps) in bytes.chunks_exact_mut(2).zip(steps) {
+            place.copy_from_slice(&steps.to_le_bytes());
+        }
+        hasher.update(&bytes[..steps.len() * 2]);
+    }
     hasher.digest128()
 }
