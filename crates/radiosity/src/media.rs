@@ -48,11 +48,12 @@ fn passage(ray: &Ray, around: &Bounds, closed: bool) -> [f64; 2] {
 
 /// How many bits a pixel of a mask has to hold the optical depth of media along its ray.
 ///
-/// Choice C42: §3.2 has masks of integers "to take into account participating media" in sight, and says no
-/// more. Here the integer counts steps of optical depth, which add up from environment to environment as
-/// transmittances would not; the greatest integer is a pixel that is false. Depth is rounded to the nearest
-/// step each time that a mask is handed on, which changes what is left of the light by a factor of
-/// exp(±step/2) at most; light dimmed beyond the last step is absorbed.
+/// Choice C42: "Instead of using boolean values, an integer value could represent the percentage of
+/// absorption along a given direction" (§3.2). Here it counts steps of optical depth: they add up from
+/// environment to environment and are as fine in thick media, where percentages would have none left. The
+/// greatest integer is a pixel that is false. Depth is rounded to the nearest step each time that a mask is
+/// handed on, which changes what is left of the light by a factor of exp(±step/2) at most; light dimmed
+/// beyond the last step is absorbed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DepthBits {
     /// Steps of 1/32: 1.6 % of the light each time, down to exp(-7.9) or 0.036 % of it.
