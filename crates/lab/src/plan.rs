@@ -8,6 +8,7 @@ use multicomputer::Machine;
 use serde_json::Value;
 use virtwall::Problem;
 
+use crate::answer::Stored;
 use crate::columns::Also;
 use crate::comparison::Comparison;
 use crate::digest::FileDigest;
@@ -34,6 +35,8 @@ pub struct Plan {
     pub problems: Vec<Prepared>,
     /// Machines.
     pub machines: Vec<Equipment>,
+    /// Stored references.
+    pub references: Vec<Stored>,
     /// Published figures.
     pub comparison: Comparison,
     /// What to draw.
@@ -53,6 +56,9 @@ impl Plan {
             memory: self.runs.iter().any(|run| machine(run).node_memory.is_some()),
             media: self.problems.iter().any(|p| !p.problem.space.scene.media.is_empty()),
             message_layer: self.runs.iter().any(|run| message_layer::tells(machine(run))),
+            errors: self.runs.iter().any(|run| run.point.reference.is_some()),
+            display: self.runs.iter().any(|run| machine(run).display.is_some()),
+            start_up: self.runs.iter().any(|run| machine(run).start_up.is_some()),
         }
     }
 }
@@ -67,6 +73,8 @@ pub struct Run {
     pub problem: usize,
     /// Index into [`Plan::machines`].
     pub machine: usize,
+    /// Index into [`Plan::references`]; none where a run has no reference, or a dense one.
+    pub stored: Option<usize>,
 }
 
 /// A scene, meshed and cut.
@@ -77,6 +85,8 @@ pub struct Prepared {
     pub problem: Arc<Problem>,
     /// The scene's files.
     pub digests: Vec<FileDigest>,
+    /// Bytes of its geometry and materials.
+    pub scene_bytes: u64,
     /// CPU seconds that reading, cleaning, cutting and meshing took.
     pub set_up_s: f64,
 }

@@ -12,7 +12,7 @@ use lab::Plan;
 /// The message for an experiment file, with the project's folder taken out of it.
 fn message(project: &Project, arguments: &[&str]) -> String {
     let arguments: Vec<String> = arguments.iter().map(|&a| a.to_owned()).collect();
-    let Err(fault) = Plan::read(&project.path("experiments/x.json"), &arguments) else {
+    let Err(fault) = Plan::read(&project.path("experiments/x.json"), &arguments, 1) else {
         return "nothing wrong".to_owned();
     };
     fault.to_string().replace(&project.path("").display().to_string(), "")
@@ -273,6 +273,12 @@ fn files_that_an_experiment_names_are_refused_at_their_own_places() {
         ),
         (
             "scenes/box.json",
+            r#"{"obj": "box.obj", "patch_size": "1 m", "media":
+                [{"min": [0, 0, 0], "max": [1, 1, 1], "absorption": "1 /m"}]}"#,
+            "experiments/x.json:1: reference: \"dense\" knows no \"media\"; expected a scene without them",
+        ),
+        (
+            "scenes/box.json",
             r#"{"patch_size": "1 m"}"#,
             "scenes/box.json: expected either \"obj\", a file, or \"made\"",
         ),
@@ -295,7 +301,7 @@ fn files_that_an_experiment_names_are_refused_at_their_own_places() {
     ] {
         let project = Project::new(
             r#"{"title": "t", "scene": "box", "processors": 1, "local_environments": 4,
-                "compare_with": "paper.csv"}"#,
+                "compare_with": "paper.csv", "reference": "dense"}"#,
         );
         project.write("experiments/paper.csv", "scene,processors,time_s,speed_up\n");
         project.write(file, text);
@@ -308,6 +314,6 @@ fn a_name_that_would_write_elsewhere_is_refused() {
     let project = Project::new(common::SWEEP);
     let hidden = project.path("experiments/..json");
     fs::copy(project.path("experiments/x.json"), &hidden).unwrap();
-    let fault = Plan::read(&hidden, &[]).err().unwrap().to_string();
+    let fault = Plan::read(&hidden, &[], 1).err().unwrap().to_string();
     assert!(fault.contains("the name \".\" names its results; expected letters"), "{fault}");
 }

@@ -46,6 +46,7 @@ fn every_field_is_described_and_every_leaf_can_be_swept() {
             "$schema",
             "title",
             "node_memory",
+            "display",
             "hemisphere",
             "virtual_walls",
             "stop",
@@ -53,7 +54,7 @@ fn every_field_is_described_and_every_leaf_can_be_swept() {
             "plots"
         ]
     );
-    for group in ["node_memory", "hemisphere", "virtual_walls", "stop"] {
+    for group in ["node_memory", "display", "hemisphere", "virtual_walls", "stop"] {
         for (name, field) in fields[group]["properties"].as_object().unwrap() {
             assert_eq!(field["anyOf"][1]["type"], "array", "{group}.{name}");
         }

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use desim::{Duration, Time};
+use desim::{Duration, Handle, Signal, Time};
 
 use crate::account::Activity;
 use crate::buffers::{FullBuffers, Rank};
@@ -81,7 +81,7 @@ impl<M: 'static> Node<M> {
             *self.shared.full_buffers.borrow_mut() = Some(full);
         }
         sender.ledger.borrow_mut().held();
-        sender.ledger.borrow_mut().turn_to(Activity::WaitForRoom, self.now());
+        sender.ledger.borrow_mut().turn_to(receiver.waiting, self.now());
         while sender.waits_for.get().is_some() {
             receiver.room.wait().await;
         }
@@ -95,6 +95,7 @@ impl<M: 'static> Node<M> {
         let (node, layer) = (self.state(), &self.shared.layer);
         let messages = node.take_mail();
         if !messages.is_empty() {
+            self.shared.tell(|observer| observer.read(self.now(), self.rank, messages.len()));
             let (count, unposted) = (messages.len() as u64, node.unposted.take());
             let overhead = || self.shared.wires.borrow().network.receive_overhead();
             let overhead = layer.handover.unwrap_or_else(overhead);
@@ -171,8 +172,20 @@ impl<M: 'static> Node<M> {
         &self.shared.nodes[self.rank]
     }
 
+    /// Waits for a signal, which goes to `activity`.
+    pub(crate) async fn wait_in(&self, activity: Activity, signal: &Signal) {
+        self.state().ledger.borrow_mut().turn_to(activity, self.now());
+        signal.wait().await;
+        self.state().ledger.borrow_mut().turn_to(Activity::Idle, self.now());
+    }
+
+    /// The simulation that it runs in.
+    pub(crate) fn handle(&self) -> &Handle {
+        &self.shared.handle
+    }
+
     /// Time until `end` goes to `activity`, and what follows to idleness until further notice.
-    async fn busy(&self, activity: Activity, end: Time) {
+    pub(crate) async fn busy(&self, activity: Activity, end: Time) {
         self.state().ledger.borrow_mut().turn_to(activity, self.now());
         self.shared.handle.sleep_until(end).await;
         self.state().ledger.borrow_mut().turn_to(Activity::Idle, self.now());

@@ -1,19 +1,21 @@
 //! What all nodes of a running multicomputer share: the network, and what each node keeps for the
 //! messages that come to it.
 
-use std::cell::{Cell, RefCell};
+use std::cell::{Cell, OnceCell, RefCell};
 use std::collections::VecDeque;
 use std::mem;
 use std::rc::Rc;
 
 use desim::{Alarm, Handle, Signal, Time};
 
-use crate::account::{Ledger, NodeAccount};
+use crate::account::{Activity, Ledger, NodeAccount};
 use crate::buffers::{Buffers, FullBuffers, Rank};
+use crate::display::Display;
 use crate::machine::Machine;
 use crate::memory::Residence;
 use crate::message_layer::MessageLayer;
 use crate::network::{Arrival, Deadlock, Message, Network};
+use crate::observer::{MachineObserver, Sent};
 use crate::topology::Place;
 
 /// What all nodes of a multicomputer share.
@@ -26,6 +28,7 @@ pub(crate) struct Shared<M> {
     pub(crate) nodes: Vec<NodeState<M>>,
     /// The processes that will never find room for a message.
     pub(crate) full_buffers: RefCell<Option<FullBuffers>>,
+    pub(crate) observer: OnceCell<Rc<RefCell<dyn MachineObserver<M>>>>,
 }
 
 /// A message, and between which processes.
@@ -55,9 +58,14 @@ impl<M> Wires<M> {
         Wires { network, under_way, first: 0, arrived, deadlock: None }
     }
 
+    /// How many messages have been sent.
+    fn sent(&self) -> u64 {
+        self.first + self.under_way.len() as u64
+    }
+
     /// Sends a message; returns when the sending processor may go on.
     fn send(&mut self, now: Time, (from, to): (Place, Place), letter: Letter<M>) -> Time {
-        let id = self.first + self.under_way.len() as u64;
+        let id = self.sent();
         self.under_way.push_back(Some((letter.to, letter.message)));
         self.network.send(now, Message { id, from, to, bytes: letter.bytes })
     }
@@ -90,6 +98,8 @@ pub(crate) struct NodeState<M> {
     pub(crate) unposted: Cell<Unposted>,
     /// None if there is always room.
     pub(crate) buffers: Option<RefCell<Buffers<Waiting<M>>>>,
+    /// What a processor does that waits for room in them.
+    pub(crate) waiting: Activity,
     /// Those who waited for room here have it.
     pub(crate) room: Signal,
     /// In whose buffers the processor waits for room.
@@ -128,12 +138,15 @@ impl<M> NodeState<M> {
     pub(crate) fn new(
         handle: &Handle,
         machine: &Machine,
-        rank: Rank,
+        (rank, is_service): (Rank, bool),
         place: Place,
     ) -> NodeState<M> {
         let residence = machine.node_memory.as_ref().map(Residence::new);
-        let buffers =
-            machine.message_layer.buffer_bytes.map(|bytes| RefCell::new(Buffers::new(bytes)));
+        let display = machine.display.as_ref().filter(|_| is_service);
+        let (bytes, waiting) = match display.and_then(Display::room_for_mail) {
+            Some(bytes) => (Some(bytes), Activity::WaitForDisplay),
+            None => (machine.message_layer.buffer_bytes, Activity::WaitForRoom),
+        };
         NodeState {
             place,
             ledger: RefCell::default(),
@@ -143,7 +156,8 @@ impl<M> NodeState<M> {
             mail: Signal::new(handle, format!("mail at node {rank}")),
             posted: Cell::default(),
             unposted: Cell::default(),
-            buffers,
+            buffers: bytes.map(|bytes| RefCell::new(Buffers::new(bytes))),
+            waiting,
             room: Signal::new(handle, format!("room in the buffers of node {rank}")),
             waits_for: Cell::default(),
             coprocessor: RefCell::new(Coprocessor { jobs: VecDeque::new(), busy: false }),
@@ -181,6 +195,11 @@ impl<M: 'static> Shared<M> {
     pub(crate) fn inject(&self, letter: Letter<M>) -> Time {
         let mut wires = self.wires.borrow_mut();
         let ends = (self.nodes[letter.from].place, self.nodes[letter.to].place);
+        self.tell(|observer| {
+            let Letter { from, to, bytes, ref message } = letter;
+            let number = wires.sent();
+            observer.sent(self.handle.now(), Sent { number, from, to, bytes, message });
+        });
         let sender_free = wires.send(self.handle.now(), ends, letter);
         self.expect_news(&wires);
         sender_free
@@ -199,6 +218,9 @@ impl<M: 'static> Shared<M> {
         for arrival in arrived.drain(..) {
             let Message { id, bytes, .. } = arrival.message;
             let letter = self.wires.borrow_mut().take(id);
+            if let Some((to, _)) = letter {
+                self.tell(|observer| observer.arrived(arrival.at, to, id, &arrival.stalls));
+            }
             match letter {
                 Some((to, message)) if self.layer.handover.is_some() => {
                     self.assign(to, Job::Receive(bytes, message));
@@ -210,6 +232,13 @@ impl<M: 'static> Shared<M> {
         let mut wires = self.wires.borrow_mut();
         wires.arrived = arrived;
         self.expect_news(&wires);
+    }
+
+    /// Tells who observes this machine, if somebody does.
+    pub(crate) fn tell(&self, news: impl FnOnce(&mut dyn MachineObserver<M>)) {
+        if let Some(observer) = self.observer.get() {
+            news(&mut *observer.borrow_mut());
+        }
     }
 
     fn expect_news(&self, wires: &Wires<M>) {

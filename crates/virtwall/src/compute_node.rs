@@ -21,6 +21,8 @@ pub struct ComputeNode {
     pub(crate) shared: Arc<Shared>,
     pub(crate) region: Region,
     queue: Queue,
+    /// What is still to be shot of the patch that was selected last, the last part first.
+    parts: Vec<Parcel>,
     ring: Ring,
     /// Until the service node says to stop selecting local patches.
     selecting: bool,
@@ -56,7 +58,9 @@ impl Shared {
         self.kept.helpers().add(Box::new(move || {
             let Shared { problem, kept, .. } = &*shared;
             kept.cast_ahead(problem, &parcel, |shot| {
-                problem.onward(&parcel, shot).for_each(|parcel| shared.foresee(&parcel));
+                let pixels_a_bit = shared.rules.shooting.pixels_a_bit;
+                let onward = problem.onward(&parcel, shot, pixels_a_bit);
+                onward.for_each(|parcel| shared.foresee(&parcel));
             });
         }));
     }
@@ -101,6 +105,7 @@ impl ComputeNode {
             shared: Arc::clone(shared),
             region,
             queue: Queue::default(),
+            parts: Vec::new(),
             ring: Ring::new(rank, shared.processors),
             selecting: true,
             done: false,
@@ -118,8 +123,13 @@ impl ComputeNode {
         process.keep(footprint::PROGRAM, || Footprint::of_the_program(problem));
     }
 
-    /// §4.2.2: the greatest source, from the region or from the queue; a wall patch has a part a bin.
+    /// §4.2.2: the greatest source, from the region or from the queue; a patch that is cut into several
+    /// sources shoots them one after the other, a wall patch all that it is at once.
     async fn choose_best_source(&mut self, process: &impl Process) -> Option<Vec<Parcel>> {
+        if let Some(part) = self.parts.pop() {
+            self.tally.counts.local_shots += 1;
+            return Some(vec![part]);
+        }
         let rules = &self.shared.rules;
         let received = self.queue.best(rules.selection);
         // Choice C25: the list of queued sources is searched through, and each lies in its own pages.
@@ -142,10 +152,15 @@ impl ComputeNode {
             }
             (_, Some((_, holding, patch))) => {
                 self.tally.counts.local_shots += 1;
-                Some(vec![self.region.take(holding, patch)])
+                self.parts = self.region.take(holding, patch);
+                self.parts.reverse();
+                self.parts.pop().map(|part| vec![part])
             }
             (None, None) => None,
         };
+        if let Some(source) = choice.as_ref().and_then(|source| source.first()) {
+            process.observe(|to| to.selected(process.now(), process.rank(), source));
+        }
         self.foresee_local();
         choice
     }
@@ -160,6 +175,7 @@ impl ComputeNode {
     fn take_received(&mut self, process: &impl Process, place: usize) -> Vec<Parcel> {
         let (turn, source) = self.queue.take(place);
         process.release(footprint::queued(turn));
+        self.tell_queue(process);
         self.tally.counts.received_shots += 1;
         self.tally.parcels_taken += 1;
         self.tally.taken += power_of(&source);
@@ -183,7 +199,10 @@ impl ComputeNode {
         let (shots, work) = process.compute(kernel).await;
         on_shot();
         self.tally.work += work;
-        source.iter().zip(&shots).for_each(|(part, shot)| self.region.receive(part, shot));
+        for (part, shot) in source.iter().zip(&shots) {
+            let reflected = self.region.receive(part, shot);
+            process.observe(|to| to.shot(process.now(), process.rank(), part, shot, reflected));
+        }
         shots
     }
 
@@ -195,8 +214,9 @@ impl ComputeNode {
         shots: &[Shot],
     ) {
         let shared = Arc::clone(&self.shared);
+        let pixels_a_bit = shared.rules.shooting.pixels_a_bit;
         for (part, shot) in source.iter().zip(shots) {
-            for onward in shared.problem.onward(part, shot) {
+            for onward in shared.problem.onward(part, shot, pixels_a_bit) {
                 self.hand_on(process, vec![onward], |mut source| {
                     source.pop().map(|onward| Message::Source(Box::new(onward)))
                 })
@@ -299,6 +319,11 @@ impl ComputeNode {
             // Taken up by another parcel, and with it when that is shot.
             None => self.tally.parcels_taken += 1,
         }
+        self.tell_queue(process);
+    }
+
+    fn tell_queue(&self, process: &impl Process) {
+        process.observe(|to| to.queue(process.now(), process.rank(), self.queue.len()));
     }
 
     /// §4.2.4: with nothing left to do, pass the token on if it is here, and wait for something to
@@ -325,9 +350,10 @@ impl ComputeNode {
     }
 
     fn sums(&mut self, rank: Rank) -> Sums {
+        let in_parts: radiosity::Rgb = self.parts.iter().map(|part| part.source.power).sum();
         Sums {
             rank: rank as u32,
-            unshot: self.region.unshot_power().element_sum(),
+            unshot: (self.region.unshot_power() + in_parts).element_sum(),
             sent: self.tally.sent.element_sum(),
             taken: self.tally.taken.element_sum(),
         }

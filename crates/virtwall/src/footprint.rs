@@ -22,7 +22,7 @@ pub enum Thing {
     Patch,
     /// Geometry and photometry of a queued source.
     Source,
-    /// 32 pixels of its mask.
+    /// 32 bits of its mask.
     MaskWord,
 }
 
@@ -91,10 +91,13 @@ impl Footprint {
 
     /// A source that waits in a queue.
     pub(crate) fn of_source(sources: &[Parcel]) -> Footprint {
-        // Of a wall patch three colours a bin, in single precision.
-        let words = |parcel: &Parcel| match parcel.source.is_of_a_wall() {
+        let words = |Parcel { source, mask, .. }: &Parcel| match source.is_of_a_wall() {
+            // Three colours a bin, in single precision.
             true => 3,
-            false => (parcel.mask.pixels().div_ceil(32) * parcel.mask.bits_a_pixel()) as usize,
+            false => {
+                let bits = mask.pixels().div_ceil(mask.pixels_a_bit());
+                (bits.div_ceil(32) * mask.bits_a_pixel()) as usize
+            }
         };
         let words = sources.iter().map(words).sum();
         Footprint::default().with(Thing::Source, 1).with(Thing::MaskWord, words)

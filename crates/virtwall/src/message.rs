@@ -38,6 +38,14 @@ pub struct Parcel {
     pub form_factor: f64,
 }
 
+impl Parcel {
+    /// Whether the emitter lies in the environment that the source is shot in. What has left an
+    /// environment never comes back: it is a box, and rays are straight.
+    pub fn is_local(&self) -> bool {
+        self.environment == self.source.environment
+    }
+}
+
 /// A wall patch on its way to the environment behind it, which knows where it lies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WallPatch {
@@ -82,6 +90,60 @@ pub struct Sums {
     pub taken: f64,
 }
 
+/// What a message is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum MessageKind {
+    /// [`Message::Source`].
+    Source,
+    /// [`Message::Update`].
+    Update,
+    /// [`Message::Collect`].
+    Collect,
+    /// [`Message::Sums`].
+    Sums,
+    /// [`Message::StopSelecting`].
+    StopSelecting,
+    /// [`Message::Token`].
+    Token,
+    /// [`Message::Done`].
+    Done,
+    /// [`Message::WallPatch`].
+    WallPatch,
+}
+
+impl MessageKind {
+    /// Every kind, in the order of the bytes with which messages begin.
+    pub const ALL: [MessageKind; 8] = [
+        MessageKind::Source,
+        MessageKind::Update,
+        MessageKind::Collect,
+        MessageKind::Sums,
+        MessageKind::StopSelecting,
+        MessageKind::Token,
+        MessageKind::Done,
+        MessageKind::WallPatch,
+    ];
+
+    /// The kind of an encoded message.
+    pub fn of(bytes: &[u8]) -> Option<MessageKind> {
+        MessageKind::ALL.get(usize::from(*bytes.first()?)).copied()
+    }
+
+    /// Its name, for people.
+    pub fn name(self) -> &'static str {
+        match self {
+            MessageKind::Source => "source",
+            MessageKind::Update => "update",
+            MessageKind::Collect => "collect",
+            MessageKind::Sums => "sums",
+            MessageKind::StopSelecting => "stop selecting",
+            MessageKind::Token => "token",
+            MessageKind::Done => "done",
+            MessageKind::WallPatch => "wall patch",
+        }
+    }
+}
+
 /// Bytes that are not a message.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 #[error("not a message: {0}")]
@@ -93,9 +155,11 @@ impl Message {
         let mut to = Vec::new();
         match self {
             Message::Source(parcel) => {
-                to.reserve(160 + (parcel.mask.pixels() * parcel.mask.bits_a_pixel() / 8) as usize);
-                // Where media dim light, the kind tells how many bits an integer of the mask has.
-                to.push(parcel.mask.depth_bits().map_or(0, |bits| bits.bits() as u8));
+                let Parcel { mask, .. } = &**parcel;
+                to.reserve(
+                    160 + (mask.pixels() / mask.pixels_a_bit() * mask.bits_a_pixel() / 8) as usize,
+                );
+                to.push(0);
                 encode_parcel(parcel, &mut to);
             }
             Message::Update(patches) => {
@@ -130,9 +194,7 @@ impl Message {
     pub fn decode(bytes: &[u8]) -> Result<Message, DecodeError> {
         let mut from = Reader(bytes);
         let message = match from.byte()? {
-            kind @ (0 | 8 | 16) => {
-                Message::Source(Box::new(decode_parcel(&mut from, DepthBits::of(kind.into()))?))
-            }
+            0 => Message::Source(Box::new(decode_parcel(&mut from)?)),
             1 => {
                 let mut patches = Vec::with_capacity(bytes.len() / 20);
                 while !from.0.is_empty() {
@@ -161,16 +223,25 @@ impl Message {
     }
 }
 
+/// Bits of a message that hold the number of pixels; [`radiosity::MOST_PIXELS`] fits them.
+const PIXEL_BITS: u32 = 25;
+
 fn encode_parcel(parcel: &Parcel, to: &mut Vec<u8>) {
     let Parcel { environment, source, mask, form_factor } = parcel;
-    let numbers = [*environment, source.environment, source.patch, source.polygon, mask.pixels()];
+    // Pixels take 25 bits; above them stands how many share a bit, or how many bits an integer has.
+    let layout = match mask.depth_bits() {
+        None => mask.pixels_a_bit().trailing_zeros(),
+        Some(bits) => bits.bits(),
+    };
+    let pixels = mask.pixels() | layout << PIXEL_BITS;
+    let numbers = [*environment, source.environment, source.patch, source.polygon, pixels];
     numbers.iter().for_each(|n| to.extend(n.to_le_bytes()));
     for vector in [source.centre, source.normal, source.power, source.radiosity] {
         vector.to_array().iter().for_each(|x| to.extend(x.to_le_bytes()));
     }
     to.extend(form_factor.to_le_bytes());
     match mask.steps() {
-        None => mask.words().iter().for_each(|word| to.extend(word.to_le_bytes())),
+        None => mask.travelling().iter().for_each(|word| to.extend(word.to_le_bytes())),
         Some((steps, DepthBits::Eight)) => to.extend(steps.iter().map(|&steps| steps as u8)),
         Some((steps, DepthBits::Sixteen)) => {
             steps.iter().for_each(|steps| to.extend(steps.to_le_bytes()));
@@ -178,7 +249,7 @@ fn encode_parcel(parcel: &Parcel, to: &mut Vec<u8>) {
     }
 }
 
-fn decode_parcel(from: &mut Reader, bits: Option<DepthBits>) -> Result<Parcel, DecodeError> {
+fn decode_parcel(from: &mut Reader) -> Result<Parcel, DecodeError> {
     let (environment, source_environment) = (from.u32()?, from.u32()?);
     let (patch, polygon, pixels) = (from.u32()?, from.u32()?, from.u32()?);
     let source = Source {
@@ -191,23 +262,29 @@ fn decode_parcel(from: &mut Reader, bits: Option<DepthBits>) -> Result<Parcel, D
         radiosity: from.vector()?,
     };
     let form_factor = from.f64()?;
-    let rest = std::mem::take(&mut from.0);
-    let mask = match bits {
-        None => {
-            let words = rest.chunks(8).map(|chunk| Reader(chunk).take().map(u64::from_le_bytes));
-            Mask::from_words(words.collect::<Result<_, _>>()?, pixels)
-        }
-        Some(bits) => {
-            let steps = rest.chunks(bits.bits() as usize / 8).map(|chunk| match chunk {
+    let mask = decode_mask(std::mem::take(&mut from.0), pixels)?;
+    Ok(Parcel { environment, source, mask, form_factor })
+}
+
+/// A mask from what has travelled, with its pixels and its layout.
+fn decode_mask(from: &[u8], pixels: u32) -> Result<Mask, DecodeError> {
+    let (pixels, layout) = (pixels & ((1 << PIXEL_BITS) - 1), pixels >> PIXEL_BITS);
+    let mask = match (DepthBits::of(layout), layout) {
+        (Some(bits), _) => {
+            let steps = from.chunks(bits.bits() as usize / 8).map(|chunk| match chunk {
                 &[steps] if bits == DepthBits::Eight => Ok(u16::from(steps)),
                 chunk => Reader(chunk).u16(),
             });
             Mask::from_steps(steps.collect::<Result<_, _>>()?, bits)
                 .filter(|mask| mask.pixels() == pixels)
         }
+        (None, 0..=6) => {
+            let words = from.chunks(8).map(|chunk| Reader(chunk).take().map(u64::from_le_bytes));
+            Mask::arrived(words.collect::<Result<_, _>>()?, pixels, 1 << layout)
+        }
+        _ => None,
     };
-    let mask = mask.ok_or(DecodeError("mask and pixels differ"))?;
-    Ok(Parcel { environment, source, mask, form_factor })
+    mask.ok_or(DecodeError("mask and pixels differ"))
 }
 
 /// A bit a bin tells whether it holds power; only the power of those that do follows.
@@ -339,7 +416,22 @@ mod tests {
             wall_patch(1),
             wall_patch(65),
         ] {
-            assert_eq!(Message::decode(&message.encode()).unwrap(), message);
+            let bytes = message.encode();
+            assert_eq!(Message::decode(&bytes).unwrap(), message);
+            assert!(kinds_match(&message, MessageKind::of(&bytes).unwrap()));
+        }
+    }
+
+    fn kinds_match(message: &Message, kind: MessageKind) -> bool {
+        match message {
+            Message::Source(_) => kind == MessageKind::Source,
+            Message::Update(_) => kind == MessageKind::Update,
+            Message::Collect => kind == MessageKind::Collect,
+            Message::Sums(_) => kind == MessageKind::Sums,
+            Message::StopSelecting => kind == MessageKind::StopSelecting,
+            Message::Token(_) => kind == MessageKind::Token,
+            Message::Done => kind == MessageKind::Done,
+            Message::WallPatch(_) => kind == MessageKind::WallPatch,
         }
     }
 

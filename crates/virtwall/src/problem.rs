@@ -1,8 +1,8 @@
 //! A scene made ready: meshed, cut into environments, with its hemisphere.
 
 use radiosity::{
-    Bounds, DepthBits, Hemisphere, LocalEnvironment, Mask, PatchSize, Rgb, Scene, Shot, Side,
-    Source, Space, VirtualWalls,
+    Bounds, DepthBits, Hemisphere, LocalEnvironment, Mask, Outgoing, PatchSize, Rgb, Scene, Shot,
+    Side, Source, Space, VirtualWalls,
 };
 use thiserror::Error;
 
@@ -110,16 +110,32 @@ impl Problem {
 
     /// A source with what is left of its mask, for each neighbour that it enters (§4.2.3); for none where
     /// virtual walls gather what leaves.
-    pub(crate) fn onward(&self, parcel: &Parcel, shot: &Shot) -> impl Iterator<Item = Parcel> {
+    pub(crate) fn onward(
+        &self,
+        parcel: &Parcel,
+        shot: &Shot,
+        pixels_a_bit: u32,
+    ) -> impl Iterator<Item = Parcel> {
         let (from, source, masks) = (parcel.environment, parcel.source, self.walls.is_none());
         Side::ALL.into_iter().zip(&shot.outgoing).filter_map(move |(side, outgoing)| {
-            outgoing.as_ref().filter(|_| masks).map(|outgoing| Parcel {
-                environment: self.decomposition.neighbour(from, side),
-                source,
-                mask: outgoing.mask.clone(),
-                form_factor: outgoing.form_factor,
-            })
+            let Outgoing { mask, form_factor } = outgoing.clone().filter(|_| masks)?;
+            let environment = self.decomposition.neighbour(from, side);
+            let parcel = Parcel { environment, source, mask, form_factor };
+            // Integers travel for every pixel.
+            let whole = pixels_a_bit == 1 || parcel.mask.depth_bits().is_some();
+            Some(if whole { parcel } else { self.coarsened(parcel, pixels_a_bit) })
         })
+    }
+
+    /// A parcel whose mask has a bit for so many pixels, and as much energy as before.
+    fn coarsened(&self, mut parcel: Parcel, pixels_a_bit: u32) -> Parcel {
+        parcel.mask = parcel.mask.coarsened(pixels_a_bit);
+        let form_factor = self.hemisphere.form_factor(&parcel.mask);
+        if form_factor > 0.0 {
+            parcel.source.power *= parcel.form_factor / form_factor;
+            parcel.form_factor = form_factor;
+        }
+        parcel
     }
 
     /// The sources that a wall patch is for the environment behind it: its bins that hold power.
