@@ -18,6 +18,7 @@ use crate::message_layer::{self, MessageLayerFigures};
 use crate::network;
 use crate::node_memory;
 use crate::settings::{Settings, WrongField};
+use crate::viewing::Camera;
 
 /// What the programs run on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
@@ -109,7 +110,7 @@ pub fn run(
     }
 }
 
-/// Runs a point's run to the end, on the simulated `machine` or on threads.
+/// Runs a point's run to the end, on the simulated `machine`, where `camera` films it, or on threads.
 ///
 /// # Errors
 /// Why the run did not end.
@@ -118,9 +119,12 @@ pub fn carry_out(
     point: &Experiment,
     on: On,
     machine: &Machine,
+    camera: &Camera,
 ) -> Result<Figures, String> {
     let outcome = match on {
-        On::Simulation => network::simulate(run, &node_memory::machine(machine, point), point),
+        On::Simulation => {
+            network::simulate(run, &node_memory::machine(machine, point), point, camera)
+        }
         On::Threads => virtwall::run_on_threads(run).map(|outcome| (outcome, None)),
     };
     let (outcome, network) = outcome.map_err(|error| error.to_string())?;
@@ -164,6 +168,12 @@ fn figures(problem: &Problem, outcome: &Outcome, virtual_time: bool) -> Figures 
         message_layer: None,
         work: outcome.work.counts().map(|(op, n)| (op.name().to_owned(), n)).collect(),
     }
+}
+
+/// The processor of each environment at one point of an experiment.
+pub fn owners(point: &Experiment, problem: &Problem) -> Vec<usize> {
+    let environments = problem.environments.len() as u32;
+    rules(point).mapping.owners(environments, point.processors as usize)
 }
 
 /// The rules that a point of an experiment sets.

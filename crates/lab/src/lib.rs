@@ -53,6 +53,7 @@ mod shot_files;
 mod summary;
 mod sweep;
 mod table;
+mod viewing;
 
 pub use check::check;
 pub use engine::On;
@@ -71,6 +72,7 @@ pub use runner::{Endings, Event, Options, Watch, carry_out};
 pub use scene_file::scene_schema;
 pub use shot_files::ShotFiles;
 pub use table::Table;
+pub use viewing::Viewing;
 
 /// Draws a plot of a table as the text of an SVG file; a column `paper_<y>` holds published points.
 pub fn svg(table: &Table, plot: &Plot) -> String {

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use virtwall::{Outcome, Run, RunError};
 
 use crate::experiment::Experiment;
+use crate::viewing::Camera;
 
 /// How far "auto" may be from the next finer model, unless the experiment says.
 const TOLERANCE: f64 = 0.01;
@@ -47,12 +48,14 @@ pub fn simulate(
     run: &Run,
     machine: &Machine,
     point: &Experiment,
+    camera: &Camera,
 ) -> Result<(Outcome, Option<NetworkFigures>), RunError> {
+    let simulate = |network| virtwall::simulate_observed(run, machine, network, camera.observer());
     if !tells(machine, point.network) {
-        return Ok((virtwall::simulate(run, machine)?, None));
+        return Ok((simulate(machine.network())?, None));
     }
     let over = |network| {
-        let outcome = virtwall::simulate_over(run, machine, network)?;
+        let outcome = simulate(network)?;
         Ok::<_, RunError>((outcome.time, outcome))
     };
     let chosen = match point.network.map_or(machine.rung, Model::rung) {

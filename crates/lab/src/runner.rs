@@ -4,6 +4,7 @@ use std::io;
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use viewer::Film;
 use virtwall::{Helpers, KeptShots, Memory, ShotCounts};
 
 use crate::engine::{self, On};
@@ -14,6 +15,7 @@ use crate::plan::Plan;
 use crate::queue::{Queue, Task};
 use crate::saved::Saved;
 use crate::shot_files::ShotFiles;
+use crate::viewing::{Camera, Viewing};
 
 /// How a plan is carried out. None of it changes what a simulated run finds.
 pub struct Options {
@@ -27,6 +29,8 @@ pub struct Options {
     pub memory: usize,
     /// Where shots are kept beyond memory and beyond this sweep.
     pub shot_files: Option<ShotFiles>,
+    /// Which runs are recorded.
+    pub viewing: Viewing,
 }
 
 /// Something that happened while a plan is carried out.
@@ -62,6 +66,8 @@ pub struct Endings {
     pub shots: ShotCounts,
     /// Host memory that kept shots took at most, bytes.
     pub shot_bytes: usize,
+    /// What was recorded of each run.
+    pub films: Vec<Option<Film>>,
 }
 
 /// Carries out all runs of a plan that are not saved in `out`, and saves each there.
@@ -74,7 +80,13 @@ pub fn carry_out(plan: &Plan, out: &Path, options: &Options, watch: Watch) -> io
         saved.forget()?;
     }
     let keys: Vec<String> = plan.runs.iter().map(|run| saved.key(plan, run, options.on)).collect();
-    let found: Vec<Option<Ending>> = keys.iter().map(|key| saved.load(key).map(Ok)).collect();
+    // A film is not saved: a run to be recorded is made again.
+    let recorded = options.viewing.chosen(plan);
+    let found = keys.iter().zip(&recorded).map(|(key, &recorded)| match recorded {
+        true => None,
+        false => saved.load(key).map(Ok),
+    });
+    let found: Vec<Option<Ending>> = found.collect();
     found.iter().flatten().for_each(|_| watch(Event::Found));
 
     let waiting = (0..plan.runs.len()).filter(|&run| found[run].is_none());
@@ -85,11 +97,13 @@ pub fn carry_out(plan: &Plan, out: &Path, options: &Options, watch: Watch) -> io
         watch,
         saved,
         keys,
+        recorded,
         memory: Arc::new(Memory::new(options.memory)),
         helpers: Arc::new(Helpers::of(threads)),
         queue: Mutex::new(Queue::new(plan, waiting)),
         runs: Mutex::new(found),
         host: Mutex::new(vec![None; plan.runs.len()]),
+        films: Mutex::new(plan.runs.iter().map(|_| None).collect()),
         trouble: Mutex::new(None),
     };
     std::thread::scope(|scope| {
@@ -112,11 +126,14 @@ struct Desk<'a> {
     saved: Saved,
     /// Under which each run is saved.
     keys: Vec<String>,
+    /// Whether each run is recorded.
+    recorded: Vec<bool>,
     memory: Arc<Memory>,
     helpers: Arc<Helpers>,
     queue: Mutex<Queue>,
     runs: Mutex<Vec<Option<Ending>>>,
     host: Mutex<Vec<Option<HostTimes>>>,
+    films: Mutex<Vec<Option<Film>>>,
     trouble: Mutex<Option<io::Error>>,
 }
 
@@ -159,7 +176,8 @@ impl Desk<'_> {
         let (shots, shot_bytes) = (held(&self.queue).counts(), self.memory.most());
         let runs = self.runs.into_inner().unwrap_or_else(PoisonError::into_inner);
         let host = self.host.into_inner().unwrap_or_else(PoisonError::into_inner);
-        Endings { runs, host, shots, shot_bytes }
+        let films = self.films.into_inner().unwrap_or_else(PoisonError::into_inner);
+        Endings { runs, host, shots, shot_bytes, films }
     }
 
     fn run(&self, task: &Task) -> Ending {
@@ -172,6 +190,9 @@ impl Desk<'_> {
         let nothing_kept = Arc::new(KeptShots::new(0));
         let kept = if point.reuse_shots { &task.kept } else { &nothing_kept };
         let run = engine::run(problem, point, kept, on_shot);
-        engine::carry_out(&run, point, self.options.on, machine)
+        let camera = Camera::of(&run, self.recorded[task.run]);
+        let ending = engine::carry_out(&run, point, self.options.on, machine, &camera);
+        held(&self.films)[task.run] = camera.film();
+        ending
     }
 }

@@ -10,10 +10,17 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use common::{Project, SWEEP};
-use lab::{Event, On, Options, Plan, Results, carry_out};
+use lab::{Event, On, Options, Plan, Results, Viewing, carry_out};
 
 fn options(threads: usize) -> Options {
-    Options { threads, fresh: false, on: On::Simulation, memory: 1 << 30, shot_files: None }
+    Options {
+        threads,
+        fresh: false,
+        on: On::Simulation,
+        memory: 1 << 30,
+        shot_files: None,
+        viewing: Viewing::None,
+    }
 }
 
 fn plan(project: &Project) -> Plan {
