@@ -11,14 +11,15 @@ class Charts {
     Object.assign(this, { state, viewer, courses: new Map() });
     state.onChange((names) => {
       if (names.has("run")) this.redraw();
-      if (names.has("run") || names.has("time")) this.moveCursors();
+      if (names.has("time")) this.moveCursors();
+      if (names.has("light")) this.tellBalance();
     });
     for (const id of ["energy", "quality"]) byId(id).addEventListener("click", (event) => this.click(event));
   }
 
   /** A run's course, computed once. */
   course(run) {
-    if (!this.courses.has(run.index)) this.courses.set(run.index, course(run, 300));
+    if (!this.courses.has(run.index)) this.courses.set(run.index, course(run, 400));
     return this.courses.get(run.index);
   }
 
@@ -69,20 +70,20 @@ class Charts {
     shown.forEach((run, i) => {
       const samples = this.course(run).filter(({ time }) => time >= shortest);
       const steps = [];
-      for (const { time, error } of samples) {
-        const [px, py] = [x(time), y(Math.max(error, QUALITY_FLOOR))];
+      for (const { time, distance } of samples) {
+        const [px, py] = [x(time), y(Math.max(distance, QUALITY_FLOOR))];
         steps.push(steps.length ? `H${px.toFixed(1)}V${py.toFixed(1)}` : `M${point(px, py)}`);
-        if (error < QUALITY_FLOOR) break;
+        if (distance < QUALITY_FLOOR) break;
       }
       const here = run === this.state.run;
       const colour = `var(--series-${i % 6})`;
       parts.push(`<path d="${steps.join("")}" fill="none" stroke="${colour}" stroke-width="${here ? 3 : 1.4}"/>`);
-      const half = samples.find(({ error }) => error < 0.5);
+      const half = samples.find(({ distance }) => distance < 0.5);
       if (half) names.push(`<text x="${x(half.time) + 3}" y="${y(0.5) - 4 - 11 * (i % 2)}" fill="${colour}">${run.computeNodes}</text>`);
     });
     parts.push(...names);
     const words = shown.map((run) => {
-      const tenth = this.course(run).find(({ error }) => error < 0.1);
+      const tenth = this.course(run).find(({ distance }) => distance < 0.1);
       return `${run.computeNodes} processors ${seconds(tenth ? tenth.time : run.end)}`;
     });
     show(byId("quality"), parts, `Time to within 10 % of the last instant: ${words.join(", ")}.`);
@@ -94,6 +95,15 @@ class Charts {
     const x = scale(0, run.end, FRAME.left, FRAME.width - FRAME.right);
     cursor(byId("energy"), x(time));
     if (this.qualityScale) cursor(byId("quality"), this.qualityScale(Math.max(time, 1e-9)));
+  }
+
+  /** The balance in numbers: what is where adds up to what was emitted. */
+  tellBalance() {
+    const { energy, emitted } = this.state.light;
+    const share = (value, digits) => `${((100 * value) / (emitted || 1)).toFixed(digits)} %`;
+    const sum = ENERGY.reduce((all, [key]) => all + energy[key], 0);
+    byId("balance").textContent =
+      `${ENERGY.map(([key, name]) => `${name} ${share(energy[key], 1)}`).join(", ")}; together ${share(sum, 4)} of what is emitted.`;
   }
 
   click(event) {

@@ -20,7 +20,7 @@ class LightPanel {
     try {
       if (names.has("run")) this.open();
       if (names.has("choice")) this.look();
-      if (names.has("run") || (names.has("time") && this.light.goTo(this.state.time))) this.repaint();
+      if (names.has("light")) this.repaint();
       else if (names.has("choice")) this.redraw();
     } catch (error) {
       this.broken = true;
@@ -37,11 +37,10 @@ class LightPanel {
       this.camera = new Camera(run.scene);
       this.palette();
     }
-    this.light = new Light(run);
-    this.light.goTo(Infinity);
-    this.last = this.light.radiosity.slice();
+    const whole = new Light(run);
+    whole.goTo(Infinity);
+    this.last = whole.radiosity;
     this.middle = middleGrey(run.scene, this.last);
-    this.light.goTo(this.state.time);
   }
 
   /** A context belongs to one scene: another scene gets another canvas. */
@@ -67,7 +66,7 @@ class LightPanel {
     for (const environment of environments) {
       run.scene.boxes[environment].forEach((x, i) => (box[i] = i < 3 ? Math.min(box[i], x) : Math.max(box[i], x)));
     }
-    this.camera.look(box, -1.9, -0.75);
+    this.camera.look(box);
     this.walk(false);
   }
 
@@ -86,8 +85,8 @@ class LightPanel {
   /** New colours. */
   repaint() {
     if (!this.picture || this.broken) return;
-    const { picture, light } = this;
-    const { run } = this.state;
+    const { picture } = this;
+    const { run, light } = this.state;
     const { low, high } = run.scene;
     const colour = byId("colour").value;
     picture.smooth = byId("smooth").checked && (colour === "light" || colour === "error");
@@ -103,7 +102,7 @@ class LightPanel {
     const { scene, owners } = this.state.run;
     const values = new Float32Array(3 * scene.patches);
     if (kind === "error") {
-      const { radiosity } = this.light;
+      const { radiosity } = this.state.light;
       return values.map((_, i) => Math.abs(this.last[i] - radiosity[i]));
     }
     for (let environment = 0; environment < scene.environments; environment++) {
@@ -132,12 +131,12 @@ class LightPanel {
   /** Says what lies at a point of the canvas. */
   ask(x, y) {
     const ratio = this.canvas.width / this.canvas.clientWidth;
-    const { state, picture, light } = this;
+    const { state, picture } = this;
     const patch = picture.patchAt(Math.round(x * ratio), Math.round(y * ratio), this.camera, state.environments);
     this.redraw();
     if (patch < 0 || patch >= state.run.scene.patches) return (byId("picture-note").textContent = "");
     const environment = state.run.scene.environmentOf(patch);
-    const rgb = Array.from(light.radiosity.subarray(3 * patch, 3 * patch + 3), (b) => b.toPrecision(3));
+    const rgb = Array.from(state.light.radiosity.subarray(3 * patch, 3 * patch + 3), (b) => b.toPrecision(3));
     byId("picture-note").textContent =
       `Patch ${patch - state.run.scene.patchStarts[environment]} of environment ${environment}, processor ` +
       `${state.run.owners[environment]}: radiosity ${rgb.join(", ")} W/m²`;

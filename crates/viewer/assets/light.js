@@ -1,23 +1,32 @@
 // Light at any instant: what was emitted, and what every shot that has ended has brought.
 
 class Light {
-  constructor(run) {
-    this.run = run;
+  /** With `last`, the light to come to, it keeps account of what is missing. */
+  constructor(run, last = null) {
+    Object.assign(this, { run, last });
     this.emission = run.scene.emission();
     this.radiosity = new Float32Array(this.emission.length);
     this.emitted = 0;
-    for (let patch = 0; patch < run.scene.patches; patch++) {
-      const sum = this.emission[3 * patch] + this.emission[3 * patch + 1] + this.emission[3 * patch + 2];
-      this.emitted += sum * run.scene.areas[patch];
-    }
+    this.missingAtFirst = 0;
+    run.scene.areas.forEach((area, patch) => {
+      for (let i = 3 * patch; i < 3 * patch + 3; i++) {
+        this.emitted += this.emission[i] * area;
+        if (last) this.missingAtFirst += area * (last[i] - this.emission[i]) ** 2;
+      }
+    });
     this.restart();
   }
 
   restart() {
     this.radiosity.set(this.emission);
+    this.missing = this.missingAtFirst;
     this.done = 0;
-    this.counts = { local: 0, received: 0 };
     this.energy = { absorbed: 0, unshot: this.emitted, transit: 0, escaped: 0 };
+  }
+
+  /** Root mean square, over the area, of the light still to come; of what came in the whole run. */
+  get distance() {
+    return this.missingAtFirst > 0 ? Math.sqrt(Math.max(0, this.missing) / this.missingAtFirst) : 0;
   }
 
   /** Goes to a time, forwards or back; says whether anything has changed. */
@@ -31,7 +40,7 @@ class Light {
 
   /** §4.2.3: a shot updates the radiosities of the patches that it hits. */
   receive(span) {
-    const { scene, spans } = this.run;
+    const { last, run: { scene, spans } } = this;
     const { unit, starts, patches, weights, environments, backs, escaped, outgoing } = scene.shots;
     const shot = spans.shot[span];
     const power = spans.powers.subarray(3 * spans.source[span], 3 * spans.source[span] + 3);
@@ -39,14 +48,17 @@ class Light {
     const sum = power[0] + power[1] + power[2];
     const energy = this.energy;
     let [arriving, reflected] = [0, 0];
-    for (let i = starts[shot]; i < starts[shot + 1]; i++) {
-      const patch = first + patches[i];
-      const [formFactor, material] = [weights[i] * unit, scene.material(patch)];
+    for (let hit = starts[shot]; hit < starts[shot + 1]; hit++) {
+      const patch = first + patches[hit];
+      const [formFactor, material, area] = [weights[hit] * unit, scene.material(patch), scene.areas[patch]];
       arriving += formFactor;
       for (let colour = 0; colour < 3; colour++) {
         const leaving = power[colour] * formFactor * material[colour];
         reflected += leaving;
-        this.radiosity[3 * patch + colour] += leaving / scene.areas[patch];
+        const i = 3 * patch + colour;
+        const before = this.radiosity[i];
+        this.radiosity[i] += leaving / area;
+        if (last) this.missing += area * ((last[i] - this.radiosity[i]) ** 2 - (last[i] - before) ** 2);
       }
     }
     const local = spans.kinds[span] === LOCAL;
@@ -56,38 +68,17 @@ class Light {
     energy.absorbed += sum * (arriving + backs[shot] * unit) - reflected;
     energy.escaped += sum * escaped[shot] * unit;
     energy.transit += sum * outgoing[shot] * unit;
-    this.counts[local ? "local" : "received"]++;
   }
 }
 
 /** How a run's light and energy go through time, at `count` moments and the last. */
 function course(run, count) {
-  const light = new Light(run);
-  light.goTo(Infinity);
-  const last = light.radiosity.slice();
-  light.restart();
-  const scene = run.scene;
-  const whole = difference(scene, last, null);
-  const samples = [];
-  for (let i = 0; i <= count; i++) {
+  const whole = new Light(run);
+  whole.goTo(Infinity);
+  const light = new Light(run, whole.radiosity);
+  return Array.from({ length: count + 1 }, (_, i) => {
     const time = (run.end * i) / count;
-    const changed = light.goTo(time) || i === 0;
-    const error = changed ? difference(scene, light.radiosity, last) / whole : samples[i - 1].error;
-    samples.push({ time, error: Math.sqrt(error), ...light.energy });
-  }
-  return samples;
-}
-
-/** Sum over patches of area times squared difference of radiosity. */
-function difference(scene, one, other) {
-  let sum = 0;
-  for (let patch = 0, i = 0; patch < scene.patches; patch++) {
-    let squares = 0;
-    for (let colour = 0; colour < 3; colour++, i++) {
-      const apart = one[i] - (other ? other[i] : 0);
-      squares += apart * apart;
-    }
-    sum += squares * scene.areas[patch];
-  }
-  return sum;
+    light.goTo(time);
+    return { time, distance: light.distance, ...light.energy };
+  });
 }

@@ -65,7 +65,7 @@ class Viewer {
     this.play(false);
     const run = await this.run(number);
     if (Number(byId("run").value) !== number) return;
-    this.state.set({ run, choice: { kind: "scene" }, time: run.end });
+    this.state.open(run);
     byId("viewer").dataset.ready = number;
   }
 

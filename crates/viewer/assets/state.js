@@ -3,7 +3,7 @@
 class State {
   constructor() {
     this.listeners = [];
-    Object.assign(this, { run: null, time: 0, choice: { kind: "scene" }, window: [0, 1] });
+    Object.assign(this, { run: null, light: null, time: 0, choice: { kind: "scene" }, window: [0, 1] });
   }
 
   onChange(listener) {
@@ -17,8 +17,17 @@ class State {
     this.listeners.forEach((listener) => listener(names));
   }
 
-  goTo(time) {
-    this.set({ time: Math.max(0, Math.min(time, this.run.end)) });
+  /** Shows a run from its last instant. */
+  open(run) {
+    const light = new Light(run);
+    light.goTo(run.end);
+    this.set({ run, light, time: run.end, window: [0, run.end], choice: { kind: "scene" } });
+  }
+
+  goTo(wanted) {
+    const time = Math.max(0, Math.min(wanted, this.run.end));
+    const { light } = this;
+    this.set(light.goTo(time) ? { time, light } : { time });
   }
 
   /** The environments to be shown. */

@@ -9,8 +9,7 @@ class Timeline {
     this.state = state;
     this.canvas = byId("timeline");
     state.onChange((names) => {
-      if (names.has("run")) state.set({ window: [0, state.run.end] });
-      else if (names.has("time") && !names.has("window")) this.follow();
+      if (names.has("time") && !names.has("window")) this.follow();
       if (["window", "choice", "run"].some((name) => names.has(name))) this.redraw();
       this.placeCursor();
     });
@@ -165,7 +164,7 @@ class Timeline {
   draw() {
     const { context, height } = fit(this.canvas);
     this.colours = Object.fromEntries(
-      [...DOING.map(({ key }) => key), "waiting", "text", "faint", "accent", "path"].map((key) => [key, ink(key)]));
+      [...DOING.map(({ key }) => key), "waiting", "text", "faint", "ruler", "accent", "path"].map((key) => [key, ink(key)]));
     context.font = "11px system-ui, sans-serif";
     this.drawRuler(context, height);
     for (let node = 0; node < this.lanes; node++) this.drawLane(context, node);
@@ -181,10 +180,11 @@ class Timeline {
   drawRuler(context, height) {
     const [from, to] = this.state.window;
     const step = roundStep((to - from) / Math.max(2, this.width / 110));
-    context.fillStyle = this.colours.faint;
     context.textAlign = "left";
     for (let tick = Math.ceil(from / step) * step; tick <= to; tick += step) {
+      context.fillStyle = this.colours.faint;
       context.fillRect(this.x(tick), RULER - 5, 1, height);
+      context.fillStyle = this.colours.ruler;
       context.fillText(seconds(tick, step / 2), this.x(tick) + 3, 11);
     }
   }

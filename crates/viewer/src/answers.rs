@@ -3,44 +3,48 @@
 
 use std::fmt::Write;
 
+use crate::critical::Link;
 use crate::film::Doing;
 use crate::reel::Told;
 
-/// Sentences on one run; `alone` is its sibling on one processor, if that was recorded.
-pub(crate) fn sentences(told: &Told, alone: Option<&Told>) -> Vec<String> {
-    let mut sentences = vec![finish(told), busiest(told)];
+/// A question and its answer.
+pub(crate) type Answer = (&'static str, String);
+
+/// What one asks of a run; `alone` is its sibling on one processor, if that was recorded.
+pub(crate) fn answers(told: &Told, alone: Option<&Told>) -> Vec<Answer> {
+    let mut answers = vec![
+        ("Which node finished last, and what was it doing?", finish(told)),
+        ("Which node worked most?", busiest(told)),
+    ];
     if told.processors() > 1 {
-        sentences.push(lost(told));
-        sentences.push(bound(told, alone));
-        sentences.push(chain(told));
+        answers.push(("Where did all nodes\u{2019} time go?", lost(told)));
+        answers.push(("What decided when it ended?", chain(told)));
+        answers.push(("Why is it not faster?", bound(told, alone)));
     }
-    sentences
+    answers
 }
 
 fn finish(told: &Told) -> String {
     let account = &told.account;
     let (last, end) = account.last;
-    let end = end.as_seconds_f64();
+    let end = exact(end.as_seconds_f64());
     let Some((node, at)) = account.last_shot else {
-        return format!(
-            "Nothing was shot; node {last} was the last to know of the end, at {}.",
-            s(end)
-        );
+        return format!("Nothing was shot. Node {last} was the last to know of the end, at {end}.");
     };
-    let at = at.as_seconds_f64();
+    let at = exact(at.as_seconds_f64());
     let shots = &told.reel.film.recording.nodes[node].shots;
     let what = shots.last().map_or(String::new(), |shot| {
         let (here, there) = (shot.environment, shot.source_environment);
         match here == there {
-            true => format!("a patch of its own environment {here}"),
-            false => format!("light from environment {there} in its environment {here}"),
+            true => format!("a patch of its own environment {here} (a local shot)"),
+            false => format!(
+                "light from environment {there} in its environment {here} (a received shot)"
+            ),
         }
     });
     format!(
-        "Node {node} finished work last: until {} it shot {what}. The end was then found out and announced, \
-         and node {last} was the last to know of it, at {}.",
-        s(at),
-        s(end),
+        "Node {node} worked last: it shot {what} until {at}. Then the end was found out and announced; node \
+         {last} was the last to know of it, at {end}."
     )
 }
 
@@ -51,11 +55,10 @@ fn busiest(told: &Told) -> String {
     let shots = &told.reel.film.recording.nodes[node].shots;
     let local = shots.iter().filter(|shot| shot.environment == shot.source_environment).count();
     format!(
-        "The busiest node is {node}: {} of {} it computed, on {} of its own patches ({}) and {} received \
-         sources ({}); it waited for {}.",
-        s(ledger.computing()),
+        "Node {node}: of {} it computed for {}, on {local} patches of its own ({}) and {} received sources \
+         ({}), and waited for {}.",
         s(told.seconds()),
-        local,
+        s(ledger.computing()),
         s(ledger.of_doing(Doing::LocalShot)),
         shots.len() - local,
         s(ledger.of_doing(Doing::ReceivedShot)),
@@ -67,23 +70,49 @@ fn lost(told: &Told) -> String {
     let all = &told.account.all;
     let whole = told.seconds() * told.processors() as f64;
     let share = |part: f64| percent(part / whole);
-    let mut text = format!(
-        "Of all nodes' time {} went into computing, {} into messages",
+    let paging = match all.of_doing(Doing::Paging) {
+        0.0 => String::new(),
+        paging => format!(", {} into paging", share(paging)),
+    };
+    format!(
+        "{} of it went into computing, {} into messages{paging}, and {} was spent waiting: {} before a node \
+         had anything to shoot, {} between its shots, {} after its last one, while others still worked.",
         share(all.computing()),
-        share(all.overhead())
-    );
-    let paging = all.of_doing(Doing::Paging);
-    if paging > 0.0 {
-        // Writing to a string cannot fail.
-        let _ = write!(text, ", {} into paging", share(paging));
-    }
-    text + &format!(
-        " and {} into waiting: {} before a node had anything to shoot, {} between its shots, {} after \
-         its last one, while others still worked.",
+        share(all.overhead()),
         share(all.waiting()),
         share(all.before),
         share(all.between),
         share(all.after),
+    )
+}
+
+/// Of the critical path, the shares of computing, of messages, and of the rest.
+fn path_shares(told: &Told) -> [f64; 3] {
+    let share = |doing: &[Doing]| {
+        doing.iter().map(|&d| told.account.path[d as usize]).sum::<f64>() / told.seconds()
+    };
+    [
+        share(&[Doing::LocalShot, Doing::ReceivedShot, Doing::Selection]),
+        share(&[Doing::Sending, Doing::Receiving, Doing::Control, Doing::Held, Doing::Travelling]),
+        share(&[Doing::Paging, Doing::Waiting]),
+    ]
+}
+
+fn chain(told: &Told) -> String {
+    let [computing, messages, rest] = path_shares(told);
+    let shoots = |link: &&Link| matches!(link.doing, Doing::LocalShot | Doing::ReceivedShot);
+    let mut nodes: Vec<usize> = told.path.iter().filter(shoots).map(|link| link.node).collect();
+    let shots = nodes.len();
+    nodes.sort_unstable();
+    nodes.dedup();
+    format!(
+        "The critical path, the chain of work and messages that led to the end without a gap: {shots} shots on \
+         {} node{}. {} of its length is computing, {} messages, {} paging or waiting for nothing recorded.",
+        nodes.len(),
+        if nodes.len() == 1 { "" } else { "s" },
+        percent(computing),
+        percent(messages),
+        percent(rest),
     )
 }
 
@@ -93,51 +122,27 @@ fn bound(told: &Told, alone: Option<&Told>) -> String {
     let work = account.all.computing();
     let busiest = account.nodes[account.busiest].computing();
     let base = alone.map_or(work, Told::seconds);
-    let mut text = format!(
-        "The work is uneven: the busiest node computes {:.1} times the mean, so that with this work a node \
-         no order of it gives a speed-up above {:.1}",
-        busiest * nodes as f64 / work,
-        base / busiest
-    );
-    if alone.is_some() {
-        let _ = write!(text, " (it is {:.1}, of {nodes} at best)", base / told.seconds());
-    }
+    let (speed_up, most) = (base / told.seconds(), base / busiest);
+    let [computing, messages, _] = path_shares(told);
+    let verdict = match (computing, messages) {
+        _ if speed_up > 0.8 * nodes as f64 => "Hardly anything holds it up.",
+        (shots, _) if shots > 0.8 && speed_up > 0.8 * most => "Load imbalance.",
+        (shots, _) if shots > 0.8 => "Load imbalance, and shots that must wait for each other.",
+        (_, messages) if messages > 0.5 => "It waits for messages.",
+        _ => "No one cause holds it up.",
+    };
     let some = account.with_sources;
-    text + &match some {
-        _ if some == nodes => ". Every node has patches of its own to shoot.".to_owned(),
+    let sources = match some {
+        _ if some == nodes => "Every node has patches of its own to shoot.".to_owned(),
         _ => format!(
-            ". Only {some} of {nodes} nodes have patches to shoot; the others have nothing to do until \
-             light reaches them, and less where little light comes."
+            "Only {some} of {nodes} nodes have patches to shoot: the others have nothing to do until light \
+             reaches them, and little where little comes."
         ),
-    }
-}
-
-fn chain(told: &Told) -> String {
-    let path = &told.account.path;
-    let whole = told.seconds();
-    let share = |doing: &[Doing]| doing.iter().map(|&d| path[d as usize]).sum::<f64>() / whole;
-    let shots = share(&[Doing::LocalShot, Doing::ReceivedShot, Doing::Selection]);
-    let messages =
-        share(&[Doing::Sending, Doing::Receiving, Doing::Control, Doing::Held, Doing::Travelling]);
-    let mut nodes: Vec<usize> = told.path.iter().map(|link| link.node).collect();
-    nodes.sort_unstable();
-    nodes.dedup();
-    let rest = share(&[Doing::Paging, Doing::Waiting]);
-    let verdict = if shots > 0.8 {
-        "So neither the network nor the order of messages holds the run up, but who has which work: load \
-         imbalance."
-    } else if messages > 0.5 {
-        "So the run waits for messages."
-    } else {
-        "So no one cause holds the run up."
     };
     format!(
-        "The critical path, the chain of work and messages that decided the end, leads over {} nodes: {} of \
-         it is computing, {} messages, {} paging and unexplained waiting. {verdict}",
-        nodes.len(),
-        percent(shots),
-        percent(messages),
-        percent(rest),
+        "{verdict} The speed-up is {speed_up:.1} of {nodes}. The busiest node computes {:.1} times the mean; \
+         with its work as it is, no order of work and no network could give more than {most:.1}. {sources}",
+        busiest * nodes as f64 / work,
     )
 }
 
@@ -176,6 +181,11 @@ pub(crate) fn table(runs: &[&Told]) -> String {
     )
 }
 
+/// Seconds, to the microsecond.
+fn exact(seconds: f64) -> String {
+    format!("{seconds:.6} s")
+}
+
 /// Seconds, to four digits.
 fn s(seconds: f64) -> String {
     let digits = match seconds {
@@ -189,6 +199,10 @@ fn s(seconds: f64) -> String {
 }
 
 fn percent(share: f64) -> String {
-    let digits = if share >= 0.0995 || share == 0.0 { 0 } else { 1 };
-    format!("{:.digits$} %", 100.0 * share)
+    match share {
+        0.0 => "0 %".to_owned(),
+        tiny if tiny < 0.0005 => "under 0.1 %".to_owned(),
+        small if small < 0.0995 => format!("{:.1} %", 100.0 * small),
+        _ => format!("{:.0} %", 100.0 * share),
+    }
 }

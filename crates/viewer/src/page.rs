@@ -105,9 +105,13 @@ fn answers(told: &[Told]) -> String {
     for group in groups(told) {
         let Some(most) = group.last() else { continue };
         let alone = group.first().filter(|told| told.processors() == 1).copied();
-        let items = answers::sentences(most, alone).into_iter();
-        let items: String = items.map(|item| format!("<li>{item}</li>\n")).collect();
-        text += &format!("<h3>{}</h3>\n<ul>\n{items}</ul>\n", escape(&most.reel.label));
+        let items = answers::answers(most, alone).into_iter();
+        let items: String =
+            items.map(|(asked, answer)| format!("<dt>{asked}</dt><dd>{answer}</dd>\n")).collect();
+        text += &format!(
+            "<h3>{}</h3>\n<dl class=\"answers\">\n{items}</dl>\n",
+            escape(&most.reel.label)
+        );
         if group.len() > 1 {
             text += &answers::table(&group);
         }
