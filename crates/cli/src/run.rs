@@ -6,6 +6,7 @@ use std::sync::Arc;
 use clap::{Args, ValueEnum};
 use lab::{Endings, HostClock, On, Options, Plan, Results, ShotFiles, Viewing};
 use multicomputer::quantity::{Dimension, QuantityError, parse};
+use reference::parallel;
 
 use crate::exit::Exit;
 use crate::progress::Progress;
@@ -49,6 +50,9 @@ pub struct Arguments {
     /// fewest and the most processors), all, none, or rows of runs.csv such as 1,8,24
     #[arg(long, value_name = "RUNS", default_value = "auto", value_parser = viewing)]
     viewer: Viewing,
+    /// Print nothing but what went wrong: no progress, no table
+    #[arg(long, short)]
+    quiet: bool,
 }
 
 fn viewing(text: &str) -> Result<Viewing, String> {
@@ -84,7 +88,8 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let clock = HostClock::start();
     let network = arguments.network.iter().map(|rung| format!("network={rung}"));
     let set: Vec<String> = arguments.set.iter().cloned().chain(network).collect();
-    let plan = Arc::new(Plan::read(&arguments.file, &set)?);
+    let threads = arguments.threads.map_or_else(parallel::host_threads, usize::from);
+    let plan = Arc::new(Plan::read(&arguments.file, &set, threads)?);
     let default = || PathBuf::from("results").join(&plan.name);
     let out = arguments.out.clone().unwrap_or_else(default);
     let place = out.display();
@@ -92,7 +97,6 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     std::fs::create_dir_all(&out)
         .map_err(|error| Exit::bad_input(format!("{place}: no folder for results: {error}")))?;
 
-    let threads = arguments.threads.map_or_else(host_processors, usize::from);
     let on = match arguments.on {
         OnArgument::Simulation => On::Simulation,
         OnArgument::Threads => On::Threads,
@@ -100,7 +104,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let memory = arguments.memory.unwrap_or_else(lab::half_of_free_memory);
     let viewing = arguments.viewer.clone();
     let options = Options { threads, fresh: arguments.fresh, on, memory, shot_files, viewing };
-    let progress = Arc::new(Progress::new(Arc::clone(&plan)));
+    let progress = Arc::new(Progress::new(Arc::clone(&plan), arguments.quiet));
     let watch = {
         let progress = Arc::clone(&progress);
         Arc::new(move |event| progress.note(event))
@@ -117,6 +121,9 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         output += &format!("Shots could not be kept in {trouble}.\n");
     }
     output += &format!("Results are in {place}.\n");
+    if arguments.quiet {
+        output.clear();
+    }
     match results.failures() {
         0 => Ok(output),
         failures => {
@@ -142,8 +149,4 @@ fn shots(endings: &Endings) -> String {
         shots.archived,
         shots.cast,
     )
-}
-
-fn host_processors() -> usize {
-    std::thread::available_parallelism().map_or(1, |processors| processors.get())
 }

@@ -123,7 +123,7 @@ pub fn carry_out(
 ) -> Result<Figures, String> {
     let outcome = match on {
         On::Simulation => {
-            network::simulate(run, &node_memory::machine(machine, point), point, camera)
+            network::simulate(run, &point.node_memory.laid_over(machine), point, camera)
         }
         On::Threads => virtwall::run_on_threads(run).map(|outcome| (outcome, None)),
     };

@@ -60,7 +60,7 @@ pub type Ending = Result<Figures, String>;
 pub struct Endings {
     /// In the plan's order; none for a run that was not come to.
     pub runs: Vec<Option<Ending>>,
-    /// What the host took for each run; none for those found finished.
+    /// What the host took for each run, also where it was found finished.
     pub host: Vec<Option<HostTimes>>,
     /// What became of the shots that runs asked for.
     pub shots: ShotCounts,
@@ -80,16 +80,17 @@ pub fn carry_out(plan: &Plan, out: &Path, options: &Options, watch: Watch) -> io
         saved.forget()?;
     }
     let keys: Vec<String> = plan.runs.iter().map(|run| saved.key(plan, run, options.on)).collect();
-    // A film is not saved: a run to be recorded is made again.
-    let recorded = options.viewing.chosen(plan);
-    let found = keys.iter().zip(&recorded).map(|(key, &recorded)| match recorded {
-        true => None,
-        false => saved.load(key).map(Ok),
-    });
-    let found: Vec<Option<Ending>> = found.collect();
+    let found = keys.iter().map(|key| saved.load(key));
+    let (found, host): (Vec<Option<Ending>>, Vec<Option<HostTimes>>) =
+        found.map(|run| run.map(|(figures, host)| (Ok(figures), host)).unzip()).unzip();
+    let recorded = match options.on {
+        On::Simulation => options.viewing.chosen(plan),
+        On::Threads => vec![false; plan.runs.len()],
+    };
     found.iter().flatten().for_each(|_| watch(Event::Found));
 
-    let waiting = (0..plan.runs.len()).filter(|&run| found[run].is_none());
+    // Films are not saved: runs found are made again to be filmed, for that alone.
+    let waiting = (0..plan.runs.len()).filter(|&run| found[run].is_none() || recorded[run]);
     let threads = options.threads.max(1);
     let desk = Desk {
         plan,
@@ -102,7 +103,7 @@ pub fn carry_out(plan: &Plan, out: &Path, options: &Options, watch: Watch) -> io
         helpers: Arc::new(Helpers::of(threads)),
         queue: Mutex::new(Queue::new(plan, waiting)),
         runs: Mutex::new(found),
-        host: Mutex::new(vec![None; plan.runs.len()]),
+        host: Mutex::new(host),
         films: Mutex::new(plan.runs.iter().map(|_| None).collect()),
         trouble: Mutex::new(None),
     };
@@ -146,22 +147,32 @@ impl Desk<'_> {
             };
             let clock = HostClock::start();
             let ending = self.run(&task);
-            if let Ok(figures) = &ending
-                && let Err(error) = self.saved.store(&self.keys[task.run], figures)
-            {
-                *held(&self.trouble) = Some(error);
+            let found = held(&self.runs)[task.run].is_some();
+            if !found {
+                self.note(&task, ending, &clock);
             }
-            let run = task.run;
-            let host = HostTimes {
-                cpu_s: clock.cpu_seconds(),
-                set_up_s: self.plan.problems[task.problem].set_up_s,
-                clock_s: clock.seconds(),
-            };
-            held(&self.runs)[run] = Some(ending);
-            held(&self.host)[run] = Some(host);
             held(&self.queue).done(&task);
-            (self.watch)(Event::Finished { run });
+            if !found {
+                (self.watch)(Event::Finished { run: task.run });
+            }
         }
+    }
+
+    /// Saves how a run ended and what it took.
+    fn note(&self, task: &Task, ending: Ending, clock: &HostClock) {
+        let run = task.run;
+        let host = HostTimes {
+            cpu_s: clock.cpu_seconds(),
+            set_up_s: self.plan.problems[task.problem].set_up_s,
+            clock_s: clock.seconds(),
+        };
+        if let Ok(figures) = &ending
+            && let Err(error) = self.saved.store(&self.keys[run], figures, host)
+        {
+            *held(&self.trouble) = Some(error);
+        }
+        held(&self.runs)[run] = Some(ending);
+        held(&self.host)[run] = Some(host);
     }
 
     /// Where the runs of a problem keep their shots.
