@@ -91,6 +91,7 @@ pub fn carry_out(plan: &Plan, out: &Path, options: &Options, watch: Watch) -> io
 
     // Films are not saved: runs found are made again to be filmed, for that alone.
     let waiting = (0..plan.runs.len()).filter(|&run| found[run].is_none() || recorded[run]);
+    let queue = Mutex::new(Queue::new(plan, waiting));
     let threads = options.threads.max(1);
     let desk = Desk {
         plan,
@@ -101,7 +102,7 @@ pub fn carry_out(plan: &Plan, out: &Path, options: &Options, watch: Watch) -> io
         recorded,
         memory: Arc::new(Memory::new(options.memory)),
         helpers: Arc::new(Helpers::of(threads)),
-        queue: Mutex::new(Queue::new(plan, waiting)),
+        queue,
         runs: Mutex::new(found),
         host: Mutex::new(host),
         films: Mutex::new(plan.runs.iter().map(|_| None).collect()),

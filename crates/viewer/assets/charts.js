@@ -78,8 +78,8 @@ class Charts {
       const here = run === this.state.run;
       const colour = `var(--series-${i % 6})`;
       parts.push(`<path d="${steps.join("")}" fill="none" stroke="${colour}" stroke-width="${here ? 3 : 1.4}"/>`);
-      const half = samples.find(({ distance }) => distance < 0.5);
-      if (half) names.push(`<text x="${x(half.time) + 3}" y="${y(0.5) - 4 - 11 * (i % 2)}" fill="${colour}">${run.computeNodes}</text>`);
+      const height = y(0.002 * 2 ** (i % 4)) + 4;
+      names.push(`<text class="name" x="${x(run.end) + 3}" y="${height}">${run.computeNodes}</text>`);
     });
     parts.push(...names);
     const words = shown.map((run) => {
@@ -88,6 +88,7 @@ class Charts {
     });
     show(byId("quality"), parts, `Time to within 10 % of the last instant: ${words.join(", ")}.`);
     this.qualityScale = x;
+    this.moveCursors();
   }
 
   moveCursors() {
@@ -100,7 +101,7 @@ class Charts {
   /** The balance in numbers: what is where adds up to what was emitted. */
   tellBalance() {
     const { energy, emitted } = this.state.light;
-    const share = (value, digits) => `${((100 * value) / (emitted || 1)).toFixed(digits)} %`;
+    const share = (value, digits) => `${Math.abs((100 * value) / (emitted || 1)).toFixed(digits)} %`;
     const sum = ENERGY.reduce((all, [key]) => all + energy[key], 0);
     byId("balance").textContent =
       `${ENERGY.map(([key, name]) => `${name} ${share(energy[key], 1)}`).join(", ")}; together ${share(sum, 4)} of what is emitted.`;

@@ -142,6 +142,7 @@ class Picture {
     const { gl, canvas, scene } = this;
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST);
+    gl.depthFunc(gl.LEQUAL);
     gl.enable(gl.CULL_FACE);
     const { program, uniforms } = this.surface;
     gl.useProgram(program);

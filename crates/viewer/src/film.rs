@@ -10,6 +10,9 @@ pub struct Film {
     pub(crate) recording: Recording,
     /// By rank, in step with the recording's shots.
     pub(crate) beams: Vec<Vec<Beam>>,
+    /// By rank, how many bytes its program keeps, from each change on; nothing where that is not
+    /// modelled.
+    pub(crate) memory: Vec<Vec<(Time, u64)>>,
 }
 
 /// What a shot was, and what it hit.
@@ -32,7 +35,8 @@ impl Film {
     /// For a run of a problem on so many processors.
     pub fn new(problem: &Problem, processors: usize) -> Film {
         let beams = std::iter::repeat_with(Vec::new).take(processors + 1).collect();
-        Film { recording: Recording::new(problem, processors), beams }
+        let recording = Recording::new(problem, processors);
+        Film { recording, beams, memory: vec![Vec::new(); processors + 1] }
     }
 
     /// Compute nodes.
@@ -82,6 +86,10 @@ impl Observer for Film {
 
     fn queue(&mut self, now: Time, rank: Rank, length: usize) {
         self.recording.queue(now, rank, length);
+    }
+
+    fn memory(&mut self, now: Time, rank: Rank, bytes: u64) {
+        self.memory[rank].push((now, bytes));
     }
 }
 

@@ -5,6 +5,7 @@
 //! browser, and answers in words what one asks first. Knows nothing of experiment files and tables.
 
 mod answers;
+mod budget;
 mod columns;
 mod critical;
 mod film;

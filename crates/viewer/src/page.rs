@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 use virtwall::Problem;
 
 use crate::answers;
+use crate::budget::affordable;
 use crate::columns::Columns;
 use crate::reel::{Reel, Told, places};
 use crate::run;
@@ -36,7 +37,7 @@ const PROGRAM: [&str; 16] = [
     include_str!("../assets/main.js"),
 ];
 
-/// The most messages of a run that a report holds, and the most hits of light of a scene.
+/// The most messages of a run that a report holds.
 const MOST_MESSAGES: usize = 60_000;
 
 /// What a report holds of its recorded runs.
@@ -127,8 +128,11 @@ struct Data {
 
 impl Data {
     fn of(told: &[Told], limit: usize) -> io::Result<Data> {
+        let shown = affordable(told, limit);
+        let told: Vec<&Told> =
+            told.iter().zip(&shown).filter(|(_, shown)| **shown).map(|(told, _)| told).collect();
         let mut problems: Vec<&Arc<Problem>> = Vec::new();
-        for one in told {
+        for one in &told {
             if !problems.iter().any(|problem| Arc::ptr_eq(problem, one.reel.problem)) {
                 problems.push(one.reel.problem);
             }
@@ -136,6 +140,13 @@ impl Data {
         let mut data = Data { index: Value::Null, blocks: String::new() };
         let (mut scenes, mut runs) = (Vec::new(), vec![Value::Null; told.len()]);
         let mut sampled = Vec::new();
+        if told.len() < shown.len() {
+            sampled.push(format!(
+                "{} of {} recorded runs are here; with more the page would be too large",
+                told.len(),
+                shown.len()
+            ));
+        }
         for (number, problem) in problems.iter().enumerate() {
             let mine =
                 || told.iter().enumerate().filter(|(_, t)| Arc::ptr_eq(t.reel.problem, problem));
@@ -150,21 +161,20 @@ impl Data {
                 let messages = told.reel.film.recording.messages.len();
                 let every = messages.div_ceil(MOST_MESSAGES).max(1);
                 if every > 1 {
-                    sampled.push(format!("{}: every {every}th message", told.reel.label));
+                    sampled.push(format!("{}, one message of {every}", told.reel.label));
                 }
                 let columns =
                     run::columns(told.reel.film, &told.reel.owners, &shots, &told.path, every);
                 runs[run] = entry(told, number, data.add(&format!("run-{run}"), &columns)?);
             }
         }
-        let _ = limit;
         data.index = json!({
             "scenes": scenes,
             "runs": runs,
-            "first": first(told),
+            "first": first(&told),
             "note": match sampled.is_empty() {
                 true => "All that was recorded is here: every shot, span and message.".to_owned(),
-                false => format!("Messages are sampled. {}.", sampled.join("; ")),
+                false => format!("Sampled: {}.", sampled.join("; ")),
             },
         });
         Ok(data)
@@ -191,7 +201,7 @@ fn entry(told: &Told, scene: usize, block: String) -> Value {
 }
 
 /// The run that is shown first: of the first group the one on the most processors.
-fn first(told: &[Told]) -> usize {
+fn first(told: &[&Told]) -> usize {
     let group = told.first().map_or(0, |one| one.reel.group);
     let mine = told.iter().enumerate().filter(|(_, one)| one.reel.group == group);
     mine.max_by_key(|(_, one)| one.processors()).map_or(0, |(run, _)| run)

@@ -57,11 +57,16 @@ fn spans(film: &Film, shots: &Shots, columns: &mut Columns) {
             sources.len() as i64 - 1
         })
     }));
-    columns.ints(film.recording.nodes.iter().zip(&nodes).flat_map(|(node, spans)| {
-        let shots = spans.iter().filter(|span| is_shot(span.activity));
-        shots.map(|span| u64::from(queue_at(node, span.from)))
+    let shots = |node: usize| nodes[node].iter().filter(|span| is_shot(span.activity));
+    let ranks = || 0..nodes.len();
+    columns.ints(ranks().flat_map(|node| {
+        let queue = &film.recording.nodes[node].queue;
+        shots(node).map(|span| last(queue, span.from).map_or(0, u64::from))
     }));
-    columns.ints([]);
+    let modelled = film.memory.iter().any(|node| !node.is_empty());
+    columns.ints(ranks().filter(|_| modelled).flat_map(|node| {
+        shots(node).map(move |span| last(&film.memory[node], span.from).unwrap_or(0))
+    }));
     columns.ints(sources.iter().map(|((environment, _), _)| u64::from(*environment)));
     columns.ints(sources.iter().map(|((_, patch), _)| u64::from(*patch)));
     columns.floats(sources.iter().flat_map(|(_, power)| power.to_array()));
@@ -100,9 +105,10 @@ fn instant(shot: &ShotRecord) -> Span {
     Span { activity, from: shot.at, to: shot.at }
 }
 
-fn queue_at(node: &NodeRecord, time: Time) -> u32 {
-    let known = node.queue.partition_point(|(at, _)| *at <= time);
-    node.queue[..known].last().map_or(0, |&(_, length)| length)
+/// What a course was at a time.
+fn last<T: Copy>(course: &[(Time, T)], time: Time) -> Option<T> {
+    let known = course.partition_point(|(at, _)| *at <= time);
+    course[..known].last().map(|&(_, value)| value)
 }
 
 fn messages(recording: &Recording, every: usize, columns: &mut Columns) {

@@ -67,11 +67,6 @@ impl<'a> Shots<'a> {
         self.numbers.get(&beam.key).copied().unwrap_or_default()
     }
 
-    /// How many hits there are in all.
-    pub fn hits(&self) -> usize {
-        self.beams.iter().map(|beam| beam.hits.len()).sum()
-    }
-
     /// All of them as columns; form factors count in pixels, or sixteenths of them where pixels differ.
     pub fn columns(&self, problem: &Problem) -> Columns {
         let weights = &problem.hemisphere.weights;

@@ -33,6 +33,9 @@ pub trait Observer {
 
     /// So many sources wait in a node's queue from now on.
     fn queue(&mut self, _now: Time, _rank: Rank, _length: usize) {}
+
+    /// The program of a node keeps so many bytes from now on. Told where memory is modelled.
+    fn memory(&mut self, _now: Time, _rank: Rank, _bytes: u64) {}
 }
 
 /// A message as it goes onto the network.

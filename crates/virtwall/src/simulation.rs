@@ -45,6 +45,12 @@ struct SimulatedProcess {
     interpreter: Option<Rc<RefCell<Interpreter>>>,
 }
 
+impl SimulatedProcess {
+    fn tell_memory(&self) {
+        self.observe(|to| to.memory(self.now(), self.rank(), self.node.bytes_kept()));
+    }
+}
+
 impl Process for SimulatedProcess {
     fn rank(&self) -> Rank {
         self.node.rank()
@@ -59,6 +65,7 @@ impl Process for SimulatedProcess {
     fn keep(&self, segment: Segment, footprint: impl FnOnce() -> Footprint) {
         if let Some(memory) = &self.memory {
             self.node.keep(segment, footprint().bytes(memory));
+            self.tell_memory();
         }
     }
 
@@ -68,6 +75,9 @@ impl Process for SimulatedProcess {
 
     fn release(&self, segment: Segment) {
         self.node.release(segment);
+        if self.memory.is_some() {
+            self.tell_memory();
+        }
     }
 
     async fn send(&self, to: Rank, message: Vec<u8>) {
