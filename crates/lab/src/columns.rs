@@ -3,6 +3,7 @@
 use serde_json::Value;
 
 use crate::engine;
+use crate::errors;
 use crate::figures::Figures;
 use crate::message_layer;
 use crate::sweep::Axis;
@@ -75,6 +76,8 @@ pub struct Also {
     pub memory: bool,
     /// Those of the message layer.
     pub message_layer: bool,
+    /// Those of errors.
+    pub errors: bool,
 }
 
 impl Also {
@@ -82,7 +85,8 @@ impl Also {
         let network = OF_THE_NETWORK.into_iter().filter(move |_| self.network);
         let memory = OF_MEMORY.into_iter().filter(move |_| self.memory);
         let layer = message_layer::COLUMNS.into_iter().filter(move |_| self.message_layer);
-        network.chain(memory).chain(layer)
+        let errors = errors::COLUMNS.into_iter().filter(move |_| self.errors);
+        network.chain(memory).chain(layer).chain(errors)
     }
 }
 
@@ -129,7 +133,10 @@ pub fn figure(figures: &Figures, column: &str) -> Option<String> {
             let counts = figures.work.iter().map(|(name, count)| format!("{name}={count}"));
             counts.collect::<Vec<_>>().join(" ")
         }
-        _ => return figures.message_layer.and_then(|layer| layer.cell(column)),
+        _ => {
+            let layer = figures.message_layer.and_then(|layer| layer.cell(column));
+            return layer.or_else(|| figures.errors?.cell(column));
+        }
     })
 }
 

@@ -13,6 +13,7 @@ use crate::experiment::{self as fields, Experiment};
 use crate::fault::Fault;
 use crate::figures::{Energy, Figures};
 use crate::find::Found;
+use crate::knobs;
 use crate::machine_file::MachineFile;
 use crate::message_layer::{self, MessageLayerFigures};
 use crate::network;
@@ -110,7 +111,8 @@ pub fn run(
     }
 }
 
-/// Runs a point's run to the end, on the simulated `machine`, where `camera` films it, or on threads.
+/// Runs a point's run to the end, on the simulated `machine`, where `camera` films it, or on threads:
+/// its figures, and its radiosities by environment.
 ///
 /// # Errors
 /// Why the run did not end.
@@ -120,7 +122,7 @@ pub fn carry_out(
     on: On,
     machine: &Machine,
     camera: &Camera,
-) -> Result<Figures, String> {
+) -> Result<(Figures, Vec<Vec<Rgb>>), String> {
     let outcome = match on {
         On::Simulation => {
             network::simulate(run, &point.node_memory.laid_over(machine), point, camera)
@@ -131,7 +133,7 @@ pub fn carry_out(
     let tells = on == On::Simulation && message_layer::tells(machine);
     let message_layer = tells.then(|| MessageLayerFigures::of(&outcome.layer()));
     let figures = figures(&run.problem, &outcome, on == On::Simulation);
-    Ok(Figures { network, message_layer, ..figures })
+    Ok((Figures { network, message_layer, ..figures }, outcome.radiosity))
 }
 
 /// The outcome's figures; times only if they are virtual.
@@ -166,6 +168,7 @@ fn figures(problem: &Problem, outcome: &Outcome, virtual_time: bool) -> Figures 
         network: None,
         memory: node_memory::figures(outcome),
         message_layer: None,
+        errors: None,
         work: outcome.work.counts().map(|(op, n)| (op.name().to_owned(), n)).collect(),
     }
 }
@@ -197,5 +200,6 @@ fn rules(point: &Experiment) -> Rules {
             fields::Mapping::Cyclic => virtwall::Mapping::Cyclic,
             fields::Mapping::Random => virtwall::Mapping::Random(point.seed),
         },
+        shooting: knobs::shooting(point),
     }
 }

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::errors::ErrorFigures;
 use crate::message_layer::MessageLayerFigures;
 use crate::network::NetworkFigures;
 use crate::node_memory::NodeMemoryFigures;
@@ -44,6 +45,9 @@ pub struct Figures {
     /// What it tells of its nodes' memory, where that is modelled.
     #[serde(default)]
     pub memory: Option<NodeMemoryFigures>,
+    /// How far its radiosities are from the answer, if there is one.
+    #[serde(default)]
+    pub errors: Option<ErrorFigures>,
     /// What it tells of its machine's message layer, if that does anything.
     #[serde(default)]
     pub message_layer: Option<MessageLayerFigures>,

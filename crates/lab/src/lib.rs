@@ -4,6 +4,7 @@
 //! out, run by run, each saved as it ends ([`carry_out`]); its results are written whole
 //! ([`Results`]). Knows nothing of how a kernel or a link works: all of that is behind `engine`.
 
+mod answer;
 mod chart;
 mod check;
 mod columns;
@@ -13,6 +14,7 @@ mod cut;
 mod digest;
 mod document;
 mod engine;
+mod errors;
 mod experiment;
 mod fault;
 mod figures;
@@ -23,6 +25,7 @@ mod host_clock;
 mod host_memory;
 mod host_times;
 mod json;
+mod knobs;
 mod machine_file;
 mod measure;
 mod message_layer;

@@ -1,10 +1,13 @@
 //! How a plan is made from an experiment file: every check there is, and nothing loaded twice.
 
-use std::path::Path;
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
 use reference::parallel;
 use serde_json::Value;
 
+use crate::answer::{self, Stored};
 use crate::columns;
 use crate::comparison::Comparison;
 use crate::digest::FileDigest;
@@ -15,6 +18,7 @@ use crate::fault::{Fault, unknown};
 use crate::file::{PLAIN, is_plain};
 use crate::find::{Found, Shelf, find};
 use crate::host_clock::HostClock;
+use crate::knobs;
 use crate::machine_file::MachineFile;
 use crate::measure::Measure;
 use crate::network;
@@ -47,6 +51,8 @@ impl Plan {
             threads,
             scenes: Vec::new(),
             machines: Vec::new(),
+            references: BTreeMap::new(),
+            stored: Vec::new(),
         };
         planner.plan()
     }
@@ -61,6 +67,9 @@ struct Planner<'a> {
     threads: usize,
     scenes: Vec<Found>,
     machines: Vec<Equipment>,
+    /// Which of those stored, by file and scene.
+    references: BTreeMap<(PathBuf, usize), usize>,
+    stored: Vec<Stored>,
 }
 
 /// A point of the sweep whose scene is yet to be read.
@@ -85,10 +94,11 @@ impl Planner<'_> {
         let scenes = self.load()?;
         let (problems, problem_of) = self.problems(&drafts, &scenes)?;
         let runs = drafts.into_iter().zip(problem_of).map(|(draft, problem)| {
+            let stored = self.reference(&draft, &scenes[draft.scene].0, &problems[problem])?;
             let Draft { point, typed, machine, .. } = draft;
-            Run { index: point.index.clone(), point: typed, problem, machine }
+            Ok(Run { index: point.index.clone(), point: typed, problem, machine, stored })
         });
-        let runs: Vec<Run> = runs.collect();
+        let runs = runs.collect::<Result<Vec<Run>, Fault>>()?;
         let first = &runs[0].point;
         let (title, plots) = (first.title.clone(), first.plots.clone());
         let resolved = self.resolved(first);
@@ -98,6 +108,7 @@ impl Planner<'_> {
             scenes.iter().flat_map(|(scene, _)| scene.digests.clone()).collect();
         files.extend(self.machines.iter().flat_map(|machine| machine.digests.clone()));
         files.extend(compared);
+        files.extend(self.stored.iter().map(|stored| stored.digest.clone()));
         files.sort();
         files.dedup();
         let warnings = scenes.iter().flat_map(|(scene, _)| scene.warnings.clone()).collect();
@@ -109,6 +120,7 @@ impl Planner<'_> {
             runs,
             problems,
             machines: self.machines,
+            references: self.stored,
             comparison,
             plots,
             warnings,
@@ -161,8 +173,38 @@ impl Planner<'_> {
         }
         network::check(&self.machines[machine].machine, typed.network)
             .map_err(|error| self.fault(point, "network", error.to_string()))?;
+        knobs::check(&typed).map_err(|(field, message)| self.fault(point, field, message))?;
         let scene = self.scene(point, &typed)?;
         Ok(Draft { point, typed, scene, machine })
+    }
+
+    /// The stored reference of a draft, read once; none if it has none, or a dense one.
+    fn reference(
+        &mut self,
+        draft: &Draft,
+        scene: &Scene,
+        problem: &Prepared,
+    ) -> Result<Option<usize>, Fault> {
+        let Some(name) = draft.typed.reference.as_deref() else { return Ok(None) };
+        let refuse = |message| self.fault(draft.point, "reference", message);
+        if name == answer::DENSE {
+            let patches = problem.problem.patches();
+            let most = answer::MOST_DENSE;
+            let message = format!("\"{name}\" for {patches} patches; expected at most {most}");
+            return if patches > most { Err(refuse(message)) } else { Ok(None) };
+        }
+        let stem = || self.scenes[draft.scene].path.file_stem().unwrap_or_default();
+        let name =
+            if name == answer::STORED { stem().to_string_lossy() } else { Cow::Borrowed(name) };
+        let found = find(self.folder, Shelf::References, &name).map_err(refuse)?;
+        let key = (found.path.clone(), draft.scene);
+        if let Some(&known) = self.references.get(&key) {
+            return Ok(Some(known));
+        }
+        let stored = Stored::read(&found, &scene.geometry)?;
+        self.stored.push(stored);
+        self.references.insert(key, self.stored.len() - 1);
+        Ok(Some(self.stored.len() - 1))
     }
 
     /// A fault of a field at one point of the sweep.

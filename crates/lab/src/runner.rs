@@ -4,10 +4,13 @@ use std::io;
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use radiosity::Rgb;
 use viewer::Film;
 use virtwall::{Helpers, KeptShots, Memory, ShotCounts};
 
+use crate::answer::DenseAnswers;
 use crate::engine::{self, On};
+use crate::errors::{ErrorFigures, Radiosity, Yardstick};
 use crate::figures::Figures;
 use crate::held::held;
 use crate::host_clock::{HostClock, HostTimes};
@@ -52,6 +55,9 @@ pub enum Event {
 
 /// Told of every event, from the threads that work.
 pub type Watch = Arc<dyn Fn(Event) + Send + Sync>;
+
+/// What a run found: its figures, and its radiosities by environment; or why it failed.
+type Ended = Result<(Figures, Vec<Vec<Rgb>>), String>;
 
 /// How one run ended: its figures, or why it failed.
 pub type Ending = Result<Figures, String>;
@@ -106,6 +112,7 @@ pub fn carry_out(plan: &Plan, out: &Path, options: &Options, watch: Watch) -> io
         runs: Mutex::new(found),
         host: Mutex::new(host),
         films: Mutex::new(plan.runs.iter().map(|_| None).collect()),
+        dense: DenseAnswers::default(),
         trouble: Mutex::new(None),
     };
     std::thread::scope(|scope| {
@@ -136,6 +143,7 @@ struct Desk<'a> {
     runs: Mutex<Vec<Option<Ending>>>,
     host: Mutex<Vec<Option<HostTimes>>>,
     films: Mutex<Vec<Option<Film>>>,
+    dense: DenseAnswers,
     trouble: Mutex<Option<io::Error>>,
 }
 
@@ -147,10 +155,15 @@ impl Desk<'_> {
                 return;
             };
             let clock = HostClock::start();
-            let ending = self.run(&task);
+            let ended = self.run(&task);
+            let host = HostTimes {
+                cpu_s: clock.cpu_seconds(),
+                set_up_s: self.plan.problems[task.problem].set_up_s,
+                clock_s: clock.seconds(),
+            };
             let found = held(&self.runs)[task.run].is_some();
             if !found {
-                self.note(&task, ending, &clock);
+                self.note(&task, ended, host);
             }
             held(&self.queue).done(&task);
             if !found {
@@ -160,13 +173,12 @@ impl Desk<'_> {
     }
 
     /// Saves how a run ended and what it took.
-    fn note(&self, task: &Task, ending: Ending, clock: &HostClock) {
+    fn note(&self, task: &Task, ended: Ended, host: HostTimes) {
+        let ending = ended.map(|(figures, radiosity)| Figures {
+            errors: self.errors(task, &radiosity),
+            ..figures
+        });
         let run = task.run;
-        let host = HostTimes {
-            cpu_s: clock.cpu_seconds(),
-            set_up_s: self.plan.problems[task.problem].set_up_s,
-            clock_s: clock.seconds(),
-        };
         if let Ok(figures) = &ending
             && let Err(error) = self.saved.store(&self.keys[run], figures, host)
         {
@@ -192,7 +204,19 @@ impl Desk<'_> {
         Endings { runs, host, shots, shot_bytes, films }
     }
 
-    fn run(&self, task: &Task) -> Ending {
+    /// How far a run is from the answer, if there is one; no part of what the run took of the host.
+    fn errors(&self, task: &Task, radiosity: &Radiosity) -> Option<ErrorFigures> {
+        let run = &self.plan.runs[task.run];
+        let problem = &self.plan.problems[run.problem].problem;
+        run.point.reference.as_ref()?;
+        let answer = match run.stored {
+            Some(stored) => Arc::clone(&self.plan.references[stored].answer),
+            None => self.dense.of(problem),
+        };
+        Some(Yardstick::new(&answer, problem).errors(radiosity))
+    }
+
+    fn run(&self, task: &Task) -> Ended {
         let run = &self.plan.runs[task.run];
         let problem = &self.plan.problems[run.problem].problem;
         let machine = &self.plan.machines[run.machine].machine;

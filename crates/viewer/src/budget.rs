@@ -54,5 +54,8 @@ fn cost(told: &[Told], shown: &[bool]) -> usize {
         let shots: usize = film.beams.iter().map(Vec::len).sum();
         sum += 5 * SPAN * shots + MESSAGE * film.recording.messages.len();
     }
-    sum + problems.iter().map(|(problem, hits)| PATCH * problem.patches() + HIT * hits).sum::<usize>()
+    sum + problems
+        .iter()
+        .map(|(problem, hits)| PATCH * problem.patches() + HIT * hits)
+        .sum::<usize>()
 }

@@ -3,6 +3,7 @@
 //!
 //! Knows nothing of files, plots or the command line.
 
+mod ambient;
 mod compute_node;
 mod counts;
 mod decomposition;
@@ -25,6 +26,7 @@ mod ring;
 mod rules;
 mod run;
 mod service_node;
+mod shooting;
 mod shot_code;
 mod shot_key;
 mod simulation;
@@ -48,6 +50,7 @@ pub use region::Region;
 pub use rules::{Rules, Selection, Ties};
 pub use run::{Run, RunError};
 pub use service_node::{Collection, service_node};
+pub use shooting::{Shooting, SourceSplit};
 pub use shot_key::ShotKey;
 pub use simulation::{simulate, simulate_observed, simulate_over};
 pub use threads::run_on_threads;

@@ -4,6 +4,7 @@ use desim::{Duration, Time};
 use multicomputer::LayerAccount;
 use radiosity::{Rgb, Work};
 
+use crate::ambient;
 use crate::compute_node::ComputeNode;
 use crate::counts::Counts;
 
@@ -25,7 +26,7 @@ pub struct Outcome {
     pub work: Work,
     /// What each compute node did, by rank.
     pub nodes: Vec<NodeReport>,
-    /// Radiosity in W/m², by environment and patch.
+    /// Radiosity in W/m², by environment and patch, with the ambient term if the rules say so.
     pub radiosity: Vec<Vec<Rgb>>,
 }
 
@@ -115,6 +116,9 @@ impl Outcome {
             }
             report.local_shots = node.tally.counts.local_shots;
             report.received_shots = node.tally.counts.received_shots;
+        }
+        if nodes[0].shared.rules.shooting.ambient {
+            ambient::add(problem, energy.unshot + energy.in_transit, &mut radiosity);
         }
         Outcome {
             time,

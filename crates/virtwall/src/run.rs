@@ -72,7 +72,7 @@ impl Run {
                 .zip(&owners)
                 .filter(move |&(_, &owner)| rank.is_none_or(|rank| owner == rank));
             let mine = mine.map(|(environment, _)| environment);
-            Region::new(&self.problem, mine, self.rules.selection, threshold)
+            Region::new(&self.problem, mine, &self.rules, threshold)
         };
         let brightest = region(None, 0.0).best_patch().map_or(0.0, |(value, ..)| value);
         let threshold = brightest * self.rules.patch_threshold;
