@@ -86,6 +86,7 @@ class Charts {
       const tenth = this.course(run).find(({ distance }) => distance < 0.1);
       return `${run.computeNodes} processors ${seconds(tenth ? tenth.time : run.end)}`;
     });
+    byId("quality-note").textContent = `${shown[0].scene.reference ? "Distance from the reference" : "Light still to come in the run"}, of all that comes (root mean square over the area), against virtual time; the numbers are processors.`;
     show(byId("quality"), parts, `Time to within 10 % of the last instant: ${words.join(", ")}.`);
     this.qualityScale = x;
     this.moveCursors();

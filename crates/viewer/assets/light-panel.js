@@ -37,10 +37,10 @@ class LightPanel {
       this.camera = new Camera(run.scene);
       this.palette();
     }
-    const whole = new Light(run);
-    whole.goTo(Infinity);
-    this.last = whole.radiosity;
+    this.last = lastLight(run);
     this.middle = middleGrey(run.scene, this.last);
+    byId("colour").querySelector("[value=error]").hidden = !run.scene.reference;
+    if (!run.scene.reference && byId("colour").value === "error") byId("colour").value = "light";
   }
 
   /** A context belongs to one scene: another scene gets another canvas. */
@@ -89,21 +89,32 @@ class LightPanel {
     const { run, light } = this.state;
     const { low, high } = run.scene;
     const colour = byId("colour").value;
-    picture.smooth = byId("smooth").checked && (colour === "light" || colour === "error");
-    picture.tone = colour === "light" ? Number(byId("tone").value) : colour === "error" ? 2 : 3;
+    const isLight = !["environment", "processor"].includes(colour);
+    picture.smooth = byId("smooth").checked && isLight;
+    picture.tone = colour === "light" ? Number(byId("tone").value) : isLight ? 2 : 3;
     picture.middle = this.middle / 2 ** Number(byId("exposure").value);
     const share = Number(byId("ceiling").value) / 100;
     picture.ceiling = share < 1 ? low[2] + share * (high[2] - low[2]) : Infinity;
     picture.paint(colour === "light" ? light.radiosity : this.colours(colour));
+    this.tellScale();
     this.redraw();
+  }
+
+  /** What false colours mean: the shader goes from 5 stops below middle grey to 4 above. */
+  tellScale() {
+    const { tone, middle } = this.picture;
+    const from = (middle * 2 ** -5).toPrecision(2);
+    const to = (middle * 2 ** 4).toPrecision(2);
+    byId("scale").textContent = tone === 2 ? `From ${from} W/m² (black) over blue, red and yellow to ${to} W/m² (white), logarithmic.` : "";
   }
 
   colours(kind) {
     const { scene, owners } = this.state.run;
     const values = new Float32Array(3 * scene.patches);
-    if (kind === "error") {
+    if (kind === "missing" || kind === "error") {
       const { radiosity } = this.state.light;
-      return values.map((_, i) => Math.abs(this.last[i] - radiosity[i]));
+      const answer = kind === "missing" ? this.last : scene.reference;
+      return values.map((_, i) => Math.abs(answer[i] - radiosity[i]));
     }
     for (let environment = 0; environment < scene.environments; environment++) {
       const rgb = this.hues[kind === "processor" ? owners[environment] : environment];

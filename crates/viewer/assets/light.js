@@ -71,11 +71,16 @@ class Light {
   }
 }
 
+/** The light of the last instant. */
+function lastLight(run) {
+  const light = new Light(run);
+  light.goTo(Infinity);
+  return light.radiosity;
+}
+
 /** How a run's light and energy go through time, at `count` moments and the last. */
 function course(run, count) {
-  const whole = new Light(run);
-  whole.goTo(Infinity);
-  const light = new Light(run, whole.radiosity);
+  const light = new Light(run, run.scene.reference || lastLight(run));
   return Array.from({ length: count + 1 }, (_, i) => {
     const time = (run.end * i) / count;
     light.goTo(time);

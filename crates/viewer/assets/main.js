@@ -71,15 +71,15 @@ class Viewer {
 
   update(names) {
     const { state } = this;
-    if (!names.has("time") && !names.has("choice")) return;
-    const { run, time } = state;
+    if (!["time", "choice", "window"].some((name) => names.has(name))) return;
+    const { run, time, window: [from, to] } = state;
     const slider = byId("time");
     if (document.activeElement !== slider || Math.abs(slider.value - (1000 * time) / run.end) >= 1) {
       slider.value = Math.round((1000 * time) / run.end);
     }
-    const now = seconds(time, run.end / 1e4);
-    slider.setAttribute("aria-valuetext", `${now} of ${seconds(run.end, run.end / 1e4)}`);
-    byId("clock").textContent = `${now} of ${seconds(run.end, run.end / 1e4)}`;
+    const text = `${seconds(time, (to - from) / 1e4)} of ${seconds(run.end, run.end / 1e4)}`;
+    slider.setAttribute("aria-valuetext", text);
+    byId("clock").textContent = text;
     byId("status").textContent = this.status();
   }
 
@@ -108,6 +108,7 @@ class Viewer {
     this.playing = on;
     byId("play").setAttribute("aria-pressed", on);
     byId("play").textContent = on ? "Pause" : "Play";
+    byId("status").setAttribute("aria-live", on ? "off" : "polite");
     if (!on) return;
     const { state } = this;
     if (state.time >= state.run.end) state.goTo(state.window[0]);
