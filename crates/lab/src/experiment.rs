@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
+use crate::display::DisplayFields;
 use crate::knobs::SplitFields;
 use crate::node_memory::NodeMemoryFields;
 use crate::quantity::{Fraction, Length, Period, Triple};
@@ -51,6 +52,16 @@ pub struct Experiment {
     /// such a machine have the columns memory_high_water, the bytes of the fullest node, and paging_s.
     #[serde(default, skip_serializing_if = "NodeMemoryFields::is_empty")]
     pub node_memory: NodeMemoryFields,
+    /// The display, in place of what the machine's file says; its file must model one. Results on such a
+    /// machine have the columns display_lag_s, updates_shown, updates_dropped, waiting_for_display_s,
+    /// service_busy_fraction, ethernet_busy_fraction and display_busy_fraction. Paper: Figure 6.
+    #[serde(default, skip_serializing_if = "DisplayFields::is_empty")]
+    pub display: DisplayFields,
+    /// Whether time_s begins with the start-up, in place of the end of initialisation; the machine's file
+    /// must model it. Results on such a machine have the columns start_up_s, reading_s and disk_wait_s.
+    /// Paper: §4.2.1.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub count_start_up: bool,
     /// Compute nodes used, at most as many as there are local environments. Paper: Table 1.
     #[schemars(range(min = 1))]
     pub processors: u32,

@@ -12,6 +12,7 @@ mod comparison;
 mod console;
 mod cut;
 mod digest;
+mod display;
 mod document;
 mod engine;
 mod errors;
@@ -53,13 +54,16 @@ mod schema;
 mod series;
 mod settings;
 mod shot_files;
+mod stage;
+mod start_up;
 mod summary;
 mod sweep;
 mod table;
+mod traces;
 mod viewing;
 
 pub use check::check;
-pub use engine::On;
+pub use engine::{Light, On};
 pub use experiment::{Plot, experiment_schema};
 pub use fault::Fault;
 pub use file::{read_text, write as write_file};
@@ -74,10 +78,13 @@ pub use results::{Results, write_host_times};
 pub use runner::{Endings, Event, Options, Watch, carry_out};
 pub use scene_file::scene_schema;
 pub use shot_files::ShotFiles;
+pub use stage::{Stage, StagedRun, Which};
 pub use table::Table;
+pub use traces::Traces;
 pub use viewing::Viewing;
 
-/// Draws a plot of a table as the text of an SVG file; a column `paper_<y>` holds published points.
+/// Draws a plot of a table as the text of an SVG file; a column `paper_<y>` or
+/// `published_<y>` holds published points.
 pub fn svg(table: &Table, plot: &Plot) -> String {
     chart::svg(table, &[], plot)
 }

@@ -56,6 +56,8 @@ impl Plan {
             memory: self.runs.iter().any(|run| machine(run).node_memory.is_some()),
             message_layer: self.runs.iter().any(|run| message_layer::tells(machine(run))),
             errors: self.runs.iter().any(|run| run.point.reference.is_some()),
+            display: self.runs.iter().any(|run| machine(run).display.is_some()),
+            start_up: self.runs.iter().any(|run| machine(run).start_up.is_some()),
         }
     }
 }
@@ -82,6 +84,8 @@ pub struct Prepared {
     pub problem: Arc<Problem>,
     /// The scene's files.
     pub digests: Vec<FileDigest>,
+    /// Bytes of its geometry and materials.
+    pub scene_bytes: u64,
     /// CPU seconds that reading, cleaning, cutting and meshing took.
     pub set_up_s: f64,
 }

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use multicomputer::Machine;
 use reference::parallel;
 use serde_json::Value;
 
@@ -38,7 +39,19 @@ impl Plan {
     /// # Errors
     /// The first fault met. Nothing was written.
     pub fn read(path: &Path, arguments: &[String], threads: usize) -> Result<Plan, Fault> {
-        let mut document = Document::read(path)?;
+        Plan::of(path, Document::read(path)?, arguments, threads)
+    }
+
+    /// Reads an experiment from a document, as if it were the file at `path`.
+    ///
+    /// # Errors
+    /// The first fault met. Nothing was written.
+    pub(crate) fn of(
+        path: &Path,
+        mut document: Document,
+        arguments: &[String],
+        threads: usize,
+    ) -> Result<Plan, Fault> {
         for argument in arguments {
             document.set(argument)?;
         }
@@ -166,10 +179,11 @@ impl Planner<'_> {
             );
             return Err(self.fault(point, "processors", message));
         }
-        if self.machines[machine].machine.node_memory.is_none() && !typed.node_memory.is_empty() {
-            let message = format!("the memory of \"{}\" is not modelled", typed.machine);
-            let message = message + "; expected a machine whose file has \"node_memory\"";
-            return Err(self.fault(point, "node_memory", message));
+        if let Some((field, what)) = lacks(&self.machines[machine].machine, &typed) {
+            let message = format!("the {what} of \"{}\" is not modelled", typed.machine);
+            let section = if field == "count_start_up" { "start_up" } else { field };
+            let message = message + &format!("; expected a machine whose file has \"{section}\"");
+            return Err(self.fault(point, field, message));
         }
         network::check(&self.machines[machine].machine, typed.network)
             .map_err(|error| self.fault(point, "network", error.to_string()))?;
@@ -267,8 +281,9 @@ impl Planner<'_> {
             let clock = HostClock::start();
             let problem = engine::problem(&scene.geometry, settings)
                 .map_err(|(field, message)| self.fault(draft.point, field, message))?;
+            let set_up_s = loading_s + clock.cpu_seconds();
             let (settings, digests) = (settings.clone(), scene.digests.clone());
-            Ok(Prepared { settings, problem, digests, set_up_s: loading_s + clock.cpu_seconds() })
+            Ok(Prepared { settings, problem, digests, scene_bytes: scene.bytes, set_up_s })
         };
         let problems = parallel::map(wanted.len(), self.threads, prepare, || ());
         Ok((problems.into_iter().collect::<Result<_, Fault>>()?, problem_of))
@@ -293,6 +308,17 @@ impl Planner<'_> {
         }
         Ok((Comparison::read(&path)?, Some(FileDigest::of(&path, name)?)))
     }
+}
+
+/// The first field that asks for what a machine does not model, and what that is.
+fn lacks(machine: &Machine, typed: &Experiment) -> Option<(&'static str, &'static str)> {
+    if machine.node_memory.is_none() && !typed.node_memory.is_empty() {
+        return Some(("node_memory", "memory"));
+    }
+    if machine.display.is_none() && !typed.display.is_empty() {
+        return Some(("display", "display"));
+    }
+    (machine.start_up.is_none() && typed.count_start_up).then_some(("count_start_up", "start-up"))
 }
 
 /// Refuses plots of columns that there will not be, or with names that lead elsewhere.

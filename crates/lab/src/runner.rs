@@ -1,12 +1,14 @@
 //! Carries a plan out: independent runs side by side, each saved as soon as it is finished.
 
+use std::cell::RefCell;
 use std::io;
 use std::path::Path;
+use std::rc::Rc;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use radiosity::Rgb;
 use viewer::Film;
-use virtwall::{Helpers, KeptShots, Memory, ShotCounts};
+use virtwall::{Helpers, KeptShots, Memory, SharedObserver, ShotCounts};
 
 use crate::answer::DenseAnswers;
 use crate::engine::{self, On};
@@ -14,11 +16,12 @@ use crate::errors::{ErrorFigures, Radiosity, Yardstick};
 use crate::figures::Figures;
 use crate::held::held;
 use crate::host_clock::{HostClock, HostTimes};
-use crate::plan::Plan;
+use crate::plan::{Plan, Prepared};
 use crate::queue::{Queue, Task};
 use crate::saved::Saved;
 use crate::shot_files::ShotFiles;
-use crate::viewing::{Camera, Viewing};
+use crate::traces::Traces;
+use crate::viewing::Viewing;
 
 /// How a plan is carried out. None of it changes what a simulated run finds.
 pub struct Options {
@@ -32,7 +35,9 @@ pub struct Options {
     pub memory: usize,
     /// Where shots are kept beyond memory and beyond this sweep.
     pub shot_files: Option<ShotFiles>,
-    /// Which runs are recorded.
+    /// Traces to be written of simulated runs; runs found finished are simulated again for them.
+    pub traces: Option<Traces>,
+    /// Which runs the report's viewer shows.
     pub viewing: Viewing,
 }
 
@@ -56,11 +61,11 @@ pub enum Event {
 /// Told of every event, from the threads that work.
 pub type Watch = Arc<dyn Fn(Event) + Send + Sync>;
 
-/// What a run found: its figures, and its radiosities by environment; or why it failed.
-type Ended = Result<(Figures, Vec<Vec<Rgb>>), String>;
-
 /// How one run ended: its figures, or why it failed.
 pub type Ending = Result<Figures, String>;
+
+/// The same with the radiosities found, by environment.
+type Ended = Result<(Figures, Vec<Vec<Rgb>>), String>;
 
 /// How all runs ended.
 pub struct Endings {
@@ -72,8 +77,10 @@ pub struct Endings {
     pub shots: ShotCounts,
     /// Host memory that kept shots took at most, bytes.
     pub shot_bytes: usize,
-    /// What was recorded of each run.
+    /// What was recorded for the report.
     pub films: Vec<Option<Film>>,
+    /// Dense solutions that runs were held against.
+    pub dense: DenseAnswers,
 }
 
 /// Carries out all runs of a plan that are not saved in `out`, and saves each there.
@@ -82,21 +89,21 @@ pub struct Endings {
 /// If a finished run cannot be saved. A run that fails is no error here: it ends so.
 pub fn carry_out(plan: &Plan, out: &Path, options: &Options, watch: Watch) -> io::Result<Endings> {
     let saved = Saved::in_folder(out);
-    if options.fresh {
+    if options.fresh || options.traces.is_some() {
         saved.forget()?;
     }
     let keys: Vec<String> = plan.runs.iter().map(|run| saved.key(plan, run, options.on)).collect();
     let found = keys.iter().map(|key| saved.load(key));
     let (found, host): (Vec<Option<Ending>>, Vec<Option<HostTimes>>) =
         found.map(|run| run.map(|(figures, host)| (Ok(figures), host)).unzip()).unzip();
-    let recorded = match options.on {
+    found.iter().flatten().for_each(|_| watch(Event::Found));
+    let filmed = match options.on {
         On::Simulation => options.viewing.chosen(plan),
         On::Threads => vec![false; plan.runs.len()],
     };
-    found.iter().flatten().for_each(|_| watch(Event::Found));
 
     // Films are not saved: runs found are made again to be filmed, for that alone.
-    let waiting = (0..plan.runs.len()).filter(|&run| found[run].is_none() || recorded[run]);
+    let waiting = (0..plan.runs.len()).filter(|&run| found[run].is_none() || filmed[run]);
     let queue = Mutex::new(Queue::new(plan, waiting));
     let threads = options.threads.max(1);
     let desk = Desk {
@@ -105,7 +112,7 @@ pub fn carry_out(plan: &Plan, out: &Path, options: &Options, watch: Watch) -> io
         watch,
         saved,
         keys,
-        recorded,
+        filmed,
         memory: Arc::new(Memory::new(options.memory)),
         helpers: Arc::new(Helpers::of(threads)),
         queue,
@@ -135,8 +142,8 @@ struct Desk<'a> {
     saved: Saved,
     /// Under which each run is saved.
     keys: Vec<String>,
-    /// Whether each run is recorded.
-    recorded: Vec<bool>,
+    /// Which runs are filmed.
+    filmed: Vec<bool>,
     memory: Arc<Memory>,
     helpers: Arc<Helpers>,
     queue: Mutex<Queue>,
@@ -155,37 +162,39 @@ impl Desk<'_> {
                 return;
             };
             let clock = HostClock::start();
-            let ended = self.run(&task);
+            let (ended, traced) = self.run(&task);
             let host = HostTimes {
                 cpu_s: clock.cpu_seconds(),
                 set_up_s: self.plan.problems[task.problem].set_up_s,
                 clock_s: clock.seconds(),
             };
-            let found = held(&self.runs)[task.run].is_some();
-            if !found {
-                self.note(&task, ended, host);
+            let run = task.run;
+            let found = held(&self.runs)[run].is_some();
+            let noted = if found { Ok(()) } else { self.note(&task, ended, host) };
+            if let Err(error) = traced.and(noted) {
+                *held(&self.trouble) = Some(error);
             }
             held(&self.queue).done(&task);
             if !found {
-                (self.watch)(Event::Finished { run: task.run });
+                (self.watch)(Event::Finished { run });
             }
         }
     }
 
     /// Saves how a run ended and what it took.
-    fn note(&self, task: &Task, ended: Ended, host: HostTimes) {
+    fn note(&self, task: &Task, ended: Ended, host: HostTimes) -> io::Result<()> {
         let ending = ended.map(|(figures, radiosity)| Figures {
             errors: self.errors(task, &radiosity),
             ..figures
         });
         let run = task.run;
-        if let Ok(figures) = &ending
-            && let Err(error) = self.saved.store(&self.keys[run], figures, host)
-        {
-            *held(&self.trouble) = Some(error);
-        }
+        let stored = match &ending {
+            Ok(figures) => self.saved.store(&self.keys[run], figures, host),
+            Err(_) => Ok(()),
+        };
         held(&self.runs)[run] = Some(ending);
         held(&self.host)[run] = Some(host);
+        stored
     }
 
     /// Where the runs of a problem keep their shots.
@@ -201,24 +210,21 @@ impl Desk<'_> {
         let runs = self.runs.into_inner().unwrap_or_else(PoisonError::into_inner);
         let host = self.host.into_inner().unwrap_or_else(PoisonError::into_inner);
         let films = self.films.into_inner().unwrap_or_else(PoisonError::into_inner);
-        Endings { runs, host, shots, shot_bytes, films }
+        Endings { runs, host, shots, shot_bytes, films, dense: self.dense }
     }
 
     /// How far a run is from the answer, if there is one; no part of what the run took of the host.
     fn errors(&self, task: &Task, radiosity: &Radiosity) -> Option<ErrorFigures> {
         let run = &self.plan.runs[task.run];
+        let answer = self.plan.answer(run, &self.dense)?;
         let problem = &self.plan.problems[run.problem].problem;
-        run.point.reference.as_ref()?;
-        let answer = match run.stored {
-            Some(stored) => Arc::clone(&self.plan.references[stored].answer),
-            None => self.dense.of(problem),
-        };
         Some(Yardstick::new(&answer, problem).errors(radiosity))
     }
 
-    fn run(&self, task: &Task) -> Ended {
+    /// Carries a run out, and writes its trace if there is to be one.
+    fn run(&self, task: &Task) -> (Ended, io::Result<()>) {
         let run = &self.plan.runs[task.run];
-        let problem = &self.plan.problems[run.problem].problem;
+        let Prepared { problem, scene_bytes, .. } = &self.plan.problems[run.problem];
         let machine = &self.plan.machines[run.machine].machine;
         let (watch, index) = (Arc::clone(&self.watch), task.run);
         let on_shot = Arc::new(move || watch(Event::Shot { run: index }));
@@ -226,9 +232,19 @@ impl Desk<'_> {
         let nothing_kept = Arc::new(KeptShots::new(0));
         let kept = if point.reuse_shots { &task.kept } else { &nothing_kept };
         let run = engine::run(problem, point, kept, on_shot);
-        let camera = Camera::of(&run, self.recorded[task.run]);
-        let ending = engine::carry_out(&run, point, self.options.on, machine, &camera);
-        held(&self.films)[task.run] = camera.film();
-        ending
+        let on = self.options.on;
+        let (traces, filmed) = (&self.options.traces, self.filmed[task.run]);
+        let watched = traces.is_some() || filmed;
+        let film = watched.then(|| Rc::new(RefCell::new(Film::new(problem, run.processors))));
+        let observer = film.clone().map(|film| film as SharedObserver);
+        let ended = engine::carry_out(&run, point, on, machine, *scene_bytes, observer);
+        let Some(film) = film.and_then(Rc::into_inner).map(RefCell::into_inner) else {
+            return (ended, Ok(()));
+        };
+        // Of a run that failed, too: there it is needed most.
+        let trace = |traces: &Traces| traces.write(self.plan, task.run, film.recording());
+        let traced = traces.as_ref().map_or(Ok(()), trace);
+        held(&self.films)[task.run] = Some(film).filter(|_| filmed && ended.is_ok());
+        (ended, traced)
     }
 }

@@ -39,6 +39,11 @@ impl Film {
         Film { recording, beams, memory: vec![Vec::new(); processors + 1] }
     }
 
+    /// All but the light.
+    pub fn recording(&self) -> &Recording {
+        &self.recording
+    }
+
     /// Compute nodes.
     pub fn processors(&self) -> usize {
         self.beams.len() - 1

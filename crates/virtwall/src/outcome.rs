@@ -7,6 +7,7 @@ use radiosity::{Rgb, Work};
 use crate::ambient;
 use crate::compute_node::ComputeNode;
 use crate::counts::Counts;
+use crate::display::DisplayReport;
 
 /// What a run found: time, counts, energy, light.
 #[derive(Clone, Debug)]
@@ -26,6 +27,8 @@ pub struct Outcome {
     pub work: Work,
     /// What each compute node did, by rank.
     pub nodes: Vec<NodeReport>,
+    /// What became of the updates for the display, where one is modelled.
+    pub display: Option<DisplayReport>,
     /// Radiosity in W/m², by environment and patch, with the ambient term if the rules say so.
     pub radiosity: Vec<Vec<Rgb>>,
 }
@@ -75,7 +78,7 @@ pub enum Ending {
 pub struct NodeReport {
     /// Time in kernels.
     pub compute: Duration,
-    /// Time in sending and receiving, waits for room in buffers included.
+    /// Time in sending and receiving, waits for room included.
     pub overhead: Duration,
     /// Time spent waiting for pages that were not in memory.
     pub paging: Duration,
@@ -130,6 +133,7 @@ impl Outcome {
             },
             work,
             nodes: reports,
+            display: None,
             radiosity,
         }
     }

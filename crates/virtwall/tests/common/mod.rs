@@ -119,5 +119,6 @@ pub fn same(one: &Outcome, other: &Outcome) {
     assert_eq!(one.ending, other.ending);
     assert_eq!(one.work, other.work);
     assert_eq!(one.nodes, other.nodes);
+    assert_eq!(one.display, other.display);
     assert_eq!(one.radiosity, other.radiosity);
 }
