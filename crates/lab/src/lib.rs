@@ -43,6 +43,7 @@ mod program;
 mod quantity;
 mod queue;
 mod ray_bench;
+mod reels;
 mod report;
 mod results;
 mod runner;

@@ -19,11 +19,11 @@ use crate::host_clock::HostTimes;
 use crate::host_times;
 use crate::place::Place;
 use crate::plan::Plan;
+use crate::reels;
 use crate::report;
 use crate::runner::Endings;
 use crate::saved::Saved;
 use crate::table::Table;
-use crate::viewing;
 
 /// The results of an experiment: all that its plots and its report are drawn from.
 pub struct Results {
@@ -43,7 +43,7 @@ impl Results {
     pub fn of(plan: &Plan, endings: &Endings, on: On) -> io::Result<Results> {
         let table = Table::of(plan, endings);
         let manifest = manifest(plan, &table, on)?;
-        let recorded = viewing::recorded(plan, &endings.films)?;
+        let recorded = reels::recorded(plan, endings);
         Ok(Results { table, manifest, recorded })
     }
 

@@ -126,12 +126,12 @@ impl Doing {
             Activity::Selection => Doing::Selection,
             Activity::LocalShot => Doing::LocalShot,
             Activity::ReceivedShot => Doing::ReceivedShot,
-            Activity::Send(MessageKind::Source | MessageKind::Update) | Activity::Pack => {
-                Doing::Sending
-            }
+            Activity::Send(MessageKind::Source | MessageKind::Update)
+            | Activity::Pack
+            | Activity::Forward => Doing::Sending,
             Activity::Send(_) => Doing::Control,
             Activity::Receive | Activity::Copy => Doing::Receiving,
-            Activity::WaitForRoom => Doing::Held,
+            Activity::WaitForRoom | Activity::WaitForDisplay => Doing::Held,
             Activity::Paging => Doing::Paging,
             Activity::Wait => Doing::Waiting,
         }

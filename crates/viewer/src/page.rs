@@ -1,6 +1,5 @@
 //! The viewer's part of a report: its markup, its blocks of data, its program.
 
-use std::io;
 use std::sync::Arc;
 
 use serde_json::{Value, json};
@@ -53,16 +52,13 @@ const MARKS: [&str; 2] = ["<!-- recorded: -->\n", "<!-- :recorded -->\n"];
 
 impl Recorded {
     /// The recordings of some runs, at most about `limit` bytes of them.
-    ///
-    /// # Errors
-    /// None is known: all is made in memory.
-    pub fn of(reels: &[Reel], limit: usize) -> io::Result<Recorded> {
+    pub fn of(reels: &[Reel], limit: usize) -> Recorded {
         let told: Vec<Told> = reels.iter().map(Told::of).collect();
-        let Data { index, blocks } = Data::of(&told, limit)?;
+        let Data { index, blocks } = Data::of(&told, limit);
         let index = embedded(&index);
         let index =
             format!("<script type=\"application/json\" id=\"viewer-index\">{index}</script>\n");
-        Ok(Recorded { answers: marked(&answers(&told)), data: marked(&(index + &blocks)) })
+        Recorded { answers: marked(&answers(&told)), data: marked(&(index + &blocks)) }
     }
 
     /// What an earlier report holds, so that it can be drawn anew.
@@ -127,7 +123,7 @@ struct Data {
 }
 
 impl Data {
-    fn of(told: &[Told], limit: usize) -> io::Result<Data> {
+    fn of(told: &[Told], limit: usize) -> Data {
         let shown = affordable(told, limit);
         let told: Vec<&Told> =
             told.iter().zip(&shown).filter(|(_, shown)| **shown).map(|(told, _)| told).collect();
@@ -152,10 +148,17 @@ impl Data {
                 || told.iter().enumerate().filter(|(_, t)| Arc::ptr_eq(t.reel.problem, problem));
             let shots = Shots::of(mine().map(|(_, told)| told.reel.film));
             let name = mine().next().map_or("", |(_, told)| told.reel.scene.as_str());
+            let answer = mine().find_map(|(_, told)| told.reel.answer.as_ref());
+            let answer = answer.map(|answer| {
+                let mut columns = Columns::default();
+                columns.floats(answer.iter().flat_map(|rgb| rgb.to_array()));
+                data.add(&format!("reference-{number}"), &columns)
+            });
             scenes.push(json!({
                 "name": name,
-                "block": data.add(&format!("scene-{number}"), &geometry(problem))?,
-                "shots": data.add(&format!("shots-{number}"), &shots.columns(problem))?,
+                "block": data.add(&format!("scene-{number}"), &geometry(problem)),
+                "shots": data.add(&format!("shots-{number}"), &shots.columns(problem)),
+                "reference": answer,
             }));
             for (run, told) in mine() {
                 let messages = told.reel.film.recording.messages.len();
@@ -165,7 +168,7 @@ impl Data {
                 }
                 let columns =
                     run::columns(told.reel.film, &told.reel.owners, &shots, &told.path, every);
-                runs[run] = entry(told, number, data.add(&format!("run-{run}"), &columns)?);
+                runs[run] = entry(told, number, data.add(&format!("run-{run}"), &columns));
             }
         }
         data.index = json!({
@@ -177,14 +180,14 @@ impl Data {
                 false => format!("Sampled: {}.", sampled.join("; ")),
             },
         });
-        Ok(data)
+        data
     }
 
-    fn add(&mut self, id: &str, columns: &Columns) -> io::Result<String> {
-        let packed = columns.pack()?;
+    fn add(&mut self, id: &str, columns: &Columns) -> String {
+        let packed = columns.pack();
         self.blocks +=
             &format!("<script type=\"application/octet-stream\" id=\"{id}\">{packed}</script>\n");
-        Ok(id.to_owned())
+        id.to_owned()
     }
 }
 

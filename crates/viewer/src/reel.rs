@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use multicomputer::{Machine, Shape};
+use radiosity::Rgb;
 use serde_json::{Value, json};
 use virtwall::Problem;
 
@@ -24,6 +25,9 @@ pub struct Reel<'a> {
     pub machine: &'a Machine,
     /// The processor of each environment.
     pub owners: Vec<usize>,
+    /// The radiosity that each patch should have, W/m², where that is known; the same for all runs of a
+    /// problem.
+    pub answer: Option<Arc<Vec<Rgb>>>,
     /// What happened.
     pub film: &'a Film,
 }
