@@ -280,6 +280,12 @@ fn figures(problem: &Problem, outcome: &Outcome, virtual_time: bool) -> Figures 
     }
 }
 
+/// The processor of each environment at one point of an experiment.
+pub fn owners(point: &Experiment, problem: &Problem) -> Vec<usize> {
+    let environments = problem.environments.len() as u32;
+    rules(point).mapping.owners(environments, point.processors as usize)
+}
+
 /// The rules that a point of an experiment sets.
 fn rules(point: &Experiment) -> Rules {
     Rules {

@@ -45,6 +45,7 @@ mod program;
 mod quantity;
 mod queue;
 mod ray_bench;
+mod reels;
 mod report;
 mod results;
 mod runner;
@@ -62,6 +63,7 @@ mod summary;
 mod sweep;
 mod table;
 mod traces;
+mod viewing;
 
 pub use check::check;
 pub use engine::{Light, On};
@@ -82,6 +84,7 @@ pub use shot_files::ShotFiles;
 pub use stage::{Stage, StagedRun, Which};
 pub use table::Table;
 pub use traces::Traces;
+pub use viewing::Viewing;
 
 /// Draws a plot of a table as the text of an SVG file; a column `paper_<y>` or
 /// `published_<y>` holds published points.
