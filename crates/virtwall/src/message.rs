@@ -1,7 +1,7 @@
 //! The wire format of everything that processes send.
 
 use radiosity::glam::DVec3;
-use radiosity::{Mask, Source};
+use radiosity::{Mask, Side, Source};
 use thiserror::Error;
 
 /// A message between processes.
@@ -32,8 +32,10 @@ pub struct Parcel {
     pub source: Source,
     /// The pixels that arrive.
     pub mask: Mask,
-    /// Their form factor together.
+    /// The form factor together of those that left for it, which are they unless the mask is coarse.
     pub form_factor: f64,
+    /// If the mask is coarser than the hemisphere: the side by which the source comes in.
+    pub through: Option<Side>,
 }
 
 impl Parcel {
@@ -194,9 +196,11 @@ impl Message {
 const PIXEL_BITS: u32 = 25;
 
 fn encode_parcel(parcel: &Parcel, to: &mut Vec<u8>) {
-    let Parcel { environment, source, mask, form_factor } = parcel;
-    // Pixels take 25 bits; above them stands how many share a bit.
-    let pixels = mask.pixels() | mask.pixels_a_bit().trailing_zeros() << PIXEL_BITS;
+    let Parcel { environment, source, mask, form_factor, through } = parcel;
+    // Above the number of pixels stand how many share a bit and by which side they come in.
+    let through = through.map_or(0, |side| 1 + side.index() as u32);
+    let coarse = mask.pixels_a_bit().trailing_zeros() + 8 * through;
+    let pixels = mask.pixels() | coarse << PIXEL_BITS;
     let numbers = [*environment, source.environment, source.patch, source.polygon, pixels];
     numbers.iter().for_each(|n| to.extend(n.to_le_bytes()));
     for vector in [source.centre, source.normal, source.power, source.radiosity] {
@@ -221,10 +225,12 @@ fn decode_parcel(from: &mut Reader) -> Result<Parcel, DecodeError> {
     let form_factor = from.f64()?;
     let words = std::mem::take(&mut from.0);
     let words = words.chunks(8).map(|chunk| Reader(chunk).take().map(u64::from_le_bytes));
-    let (pixels, logarithm) = (pixels & ((1 << PIXEL_BITS) - 1), pixels >> PIXEL_BITS);
-    let mask = Mask::arrived(words.collect::<Result<_, _>>()?, pixels, 1 << logarithm)
+    let (pixels, coarse) = (pixels & ((1 << PIXEL_BITS) - 1), pixels >> PIXEL_BITS);
+    let mask = Mask::arrived(words.collect::<Result<_, _>>()?, pixels, 1 << (coarse % 8))
         .ok_or(DecodeError("mask and pixels differ"))?;
-    Ok(Parcel { environment, source, mask, form_factor })
+    let through = (coarse as usize / 8).checked_sub(1);
+    let through = through.and_then(|side| Side::ALL.get(side)).copied();
+    Ok(Parcel { environment, source, mask, form_factor, through })
 }
 
 /// Bytes not read yet.
@@ -278,7 +284,21 @@ mod tests {
             power: DVec3::new(1.0, 2.0, 3.5),
             radiosity: DVec3::new(10.0, 20.0, 35.0),
         };
-        Message::Source(Box::new(Parcel { environment: 8, source, mask, form_factor: 0.25 }))
+        let through = None;
+        Message::Source(Box::new(Parcel {
+            environment: 8,
+            source,
+            mask,
+            form_factor: 0.25,
+            through,
+        }))
+    }
+
+    fn coarse_parcel(pixels: u32, pixels_a_bit: u32, side: Side) -> Message {
+        let Message::Source(mut parcel) = parcel(pixels) else { unreachable!() };
+        parcel.mask = parcel.mask.coarsened(pixels_a_bit);
+        parcel.through = Some(side);
+        Message::Source(parcel)
     }
 
     #[test]
@@ -288,6 +308,8 @@ mod tests {
         for message in [
             parcel(30_976),
             parcel(65),
+            coarse_parcel(30_976, 8, Side::ALL[0]),
+            coarse_parcel(65, 64, Side::ALL[5]),
             Message::Update(vec![update; 3]),
             Message::Update(vec![]),
             Message::Collect,
@@ -321,6 +343,9 @@ mod tests {
         let bytes = parcel(30_976).encode().len();
         assert_eq!(bytes, 1 + 5 * 4 + 4 * 24 + 8 + 3_872);
         assert!(bytes <= 4_096);
+        // With eight pixels a bit an eighth of the mask.
+        let bytes = coarse_parcel(30_976, 8, Side::ALL[3]).encode().len();
+        assert_eq!(bytes, 1 + 5 * 4 + 4 * 24 + 8 + 488);
     }
 
     #[test]

@@ -92,22 +92,15 @@ impl Problem {
     ) -> impl Iterator<Item = Parcel> {
         let (from, source) = (parcel.environment, parcel.source);
         Side::ALL.into_iter().zip(&shot.outgoing).filter_map(move |(side, outgoing)| {
-            let Outgoing { mask, form_factor } = outgoing.clone()?;
-            let environment = self.decomposition.neighbour(from, side);
-            let parcel = Parcel { environment, source, mask, form_factor };
-            Some(if pixels_a_bit == 1 { parcel } else { self.coarsened(parcel, pixels_a_bit) })
+            let Outgoing { mask, form_factor } = outgoing.as_ref()?;
+            Some(Parcel {
+                environment: self.decomposition.neighbour(from, side),
+                source,
+                mask: mask.coarsened(pixels_a_bit),
+                form_factor: *form_factor,
+                through: (pixels_a_bit > 1).then_some(Side { upper: !side.upper, ..side }),
+            })
         })
-    }
-
-    /// A parcel whose mask has a bit for so many pixels, and as much energy as before.
-    fn coarsened(&self, mut parcel: Parcel, pixels_a_bit: u32) -> Parcel {
-        parcel.mask = parcel.mask.coarsened(pixels_a_bit);
-        let form_factor = self.hemisphere.form_factor(&parcel.mask);
-        if form_factor > 0.0 {
-            parcel.source.power *= parcel.form_factor / form_factor;
-            parcel.form_factor = form_factor;
-        }
-        parcel
     }
 
     /// Power that the scene emits, W.

@@ -164,6 +164,7 @@ impl Region {
             source: Source { centre: part.centre, power: source.power * part.share, ..source },
             mask: Mask::all(hemisphere.pixels()),
             form_factor: 1.0,
+            through: None,
         };
         geometry.parts(space, patch, along).into_iter().map(parcel).collect()
     }
