@@ -171,7 +171,7 @@ fn a_machine_is_shown_and_measured() {
     assert!(text.contains("\n     4096       105.06      38.99"), "{text}");
     assert!(text.contains("Published: latency 42 µs, bandwidth 65 MB/s."), "{text}");
     let svg = fs::read_to_string(project.path("bench/megabytes_a_second-by-bytes.svg")).unwrap();
-    assert!(svg.contains("paper"));
+    assert!(svg.contains("published"));
 
     let (code, text, _) = virtwall(&root(), &["machine", "bench", "paragon-osf1-early"]);
     assert_eq!(code, 0);
@@ -180,14 +180,86 @@ fn a_machine_is_shown_and_measured() {
 }
 
 #[test]
+fn every_machine_is_shown_and_measured() {
+    let files = fs::read_dir(root().join("machines")).unwrap().map(|entry| entry.unwrap().path());
+    let machines = files.filter(|path| path.extension().is_some_and(|ending| ending == "json"));
+    for machine in machines.map(|path| path.display().to_string()) {
+        let (code, text, stderr) = virtwall(&root(), &["machine", "show", &machine]);
+        assert_eq!((code, stderr.as_str()), (0, ""), "{machine}");
+        assert!(text.contains(" (s) on a "), "{text}");
+        let (code, text, stderr) = virtwall(&root(), &["machine", "bench", &machine]);
+        assert_eq!((code, stderr.as_str()), (0, ""), "{machine}");
+        assert!(text.contains("\nPublished: "), "{text}");
+    }
+    let hub = |name| virtwall(&root(), &["machine", "show", name]).1;
+    let bus = hub("workstations");
+    assert!(bus.contains("16 compute nodes and 1 service node (s) on a bus (=) with 17"), "{bus}");
+    assert!(bus.contains("\n   s\n   |\n  ==\n"), "{bus}");
+    assert!(hub("cluster-64").contains("\n   s\n   |\n  ##\n"));
+    let wide = hub("paragon-1024");
+    assert!(wide.contains("    8 -    9 - ... -   58 -   59 -"), "{wide}");
+}
+
+#[test]
 fn worms_are_compared_with_flits() {
-    let small = ["machine", "compare", "--bytes", "64", "--messages", "8"];
+    let small = ["machine", "compare", "paragon-xps", "--bytes", "64", "--messages", "8"];
     let (code, table, stderr) = virtwall(&root(), &small);
     assert_eq!((code, stderr.as_str()), (0, ""));
     for pattern in ["uniform", "neighbour", "transpose", "hot-spot", "all-to-one"] {
         assert!(table.contains(pattern), "{table}");
     }
     assert!(table.contains("Below saturation mean latencies differ by "), "{table}");
+}
+
+#[test]
+fn what_the_display_and_the_start_up_do_stands_in_the_results() {
+    let text = SWEEP
+        .replace("[64, 256]", "64")
+        .replace("\"title\"", r#""machine": ["paragon-xps", "paragon-display"], "title""#);
+    let project = Project::new(&text);
+    let machine = fs::read_to_string(root().join("machines/paragon-display.json")).unwrap();
+    project.write("machines/paragon-display.json", &machine);
+    let run = |settings: &[&str]| {
+        let settings = settings.iter().flat_map(|setting| ["--set", setting]);
+        let arguments: Vec<&str> =
+            ["run", "experiments/x.json"].into_iter().chain(settings).collect();
+        virtwall(&project.path(""), &arguments)
+    };
+    assert_eq!(run(&[]).0, 0);
+    let beside = rows(&project);
+    let number = |row: &[(String, String)], name: &str| cell(row, name).parse::<f64>().unwrap();
+    // Nothing stands beside a machine that says nothing of them; nothing else differs.
+    assert_eq!([cell(&beside[0], "display_lag_s"), cell(&beside[0], "start_up_s")], ["", ""]);
+    let [without, with] = [&beside[2], &beside[5]];
+    assert_eq!(cell(with, "time_s"), cell(without, "time_s"));
+    assert_eq!(cell(with, "updates_shown"), cell(with, "update_messages"));
+    assert_eq!(number(with, "updates_dropped"), 0.0);
+    assert!(number(with, "display_lag_s") > 0.0 && number(with, "service_busy_fraction") > 0.0);
+    // Four nodes read some hundred bytes, one after the other.
+    let [all, reading, waited] =
+        ["start_up_s", "reading_s", "disk_wait_s"].map(|c| number(with, c));
+    assert!(
+        (waited * 4.0 / 3.0 - reading).abs() < 1e-5 && reading < all,
+        "{waited} {reading} {all}"
+    );
+
+    let drowned = ["machine=paragon-display", r#"display.update_time="1 s""#];
+    let drops = [r#"display.when_full="drop_newest""#, r#"display.service_buffers="1 B""#];
+    assert_eq!(run(&[&drowned[..], &drops].concat()).0, 0);
+    assert!(rows(&project).iter().any(|row| number(row, "updates_dropped") > 0.0));
+
+    assert_eq!(run(&["machine=paragon-display", "count_start_up=true"]).0, 0);
+    let counted = &rows(&project)[2];
+    let computing = number(counted, "time_s") - number(counted, "start_up_s");
+    assert!((computing - number(with, "time_s")).abs() < 2e-6);
+
+    let lacks = |setting: &str, expected: &str| {
+        let (code, _, stderr) = run(&["machine=paragon-xps", setting]);
+        assert_eq!(code, 2);
+        assert!(stderr.contains(expected), "{stderr}");
+    };
+    lacks(r#"display.update_time="1 s""#, "expected a machine whose file has \"display\"");
+    lacks("count_start_up=true", "expected a machine whose file has \"start_up\"");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Which model of the network a run is simulated on, and what it tells of the network.
 
-use multicomputer::{Choice, Machine, MachineError, Model, Record, Recorder};
+use multicomputer::{Choice, Machine, MachineError, Model, Record, Recorder, Rung};
 use serde::{Deserialize, Serialize};
 use virtwall::{Outcome, Run, RunError, SharedObserver, simulate_observed};
 
@@ -76,6 +76,20 @@ pub fn simulate(
     };
     let figures = figures(machine, &chosen);
     Ok((chosen.answer, Some(figures)))
+}
+
+/// The model that a run is simulated on; where that is left open, it is simulated to find out.
+///
+/// # Errors
+/// Why the run did not end.
+pub fn rung(run: &Run, machine: &Machine, point: &Experiment) -> Result<Rung, RunError> {
+    match point.network.map_or(machine.rung, Model::rung) {
+        Some(rung) => Ok(rung),
+        None => {
+            let (_, figures) = simulate(run, machine, point, None)?;
+            Ok(figures.and_then(|figures| figures.rung.parse().ok()).unwrap_or(Rung::LogGp))
+        }
+    }
 }
 
 fn figures(machine: &Machine, chosen: &Choice<Outcome>) -> NetworkFigures {

@@ -8,7 +8,7 @@ pub(crate) fn activities() -> impl Iterator<Item = Activity> {
     OTHERS.into_iter().chain(sends)
 }
 
-const OTHERS: [Activity; 9] = [
+const OTHERS: [Activity; 11] = [
     Activity::Selection,
     Activity::LocalShot,
     Activity::ReceivedShot,
@@ -17,6 +17,8 @@ const OTHERS: [Activity; 9] = [
     Activity::Copy,
     Activity::WaitForRoom,
     Activity::Paging,
+    Activity::Forward,
+    Activity::WaitForDisplay,
     Activity::Wait,
 ];
 
@@ -31,7 +33,9 @@ pub(crate) fn number(activity: Activity) -> usize {
         Activity::Copy => 5,
         Activity::WaitForRoom => 6,
         Activity::Paging => 7,
-        Activity::Wait => 8,
+        Activity::Forward => 8,
+        Activity::WaitForDisplay => 9,
+        Activity::Wait => 10,
         Activity::Send(kind) => OTHERS.len() + kind as usize,
     }
 }
@@ -50,6 +54,6 @@ mod tests {
 
     #[test]
     fn numbers_are_places() {
-        assert!(activities().map(number).eq(0..16));
+        assert!(activities().map(number).eq(0..18));
     }
 }

@@ -208,8 +208,8 @@ fn colour(activity: Activity) -> &'static str {
         Activity::ReceivedShot => "0.20 0.55 0.80",
         Activity::Send(_) => "0.60 0.35 0.65",
         Activity::Receive => "0.80 0.60 0.85",
-        Activity::Pack | Activity::Copy => "0.55 0.45 0.35",
-        Activity::WaitForRoom => "0.80 0.20 0.20",
+        Activity::Pack | Activity::Copy | Activity::Forward => "0.55 0.45 0.35",
+        Activity::WaitForRoom | Activity::WaitForDisplay => "0.80 0.20 0.20",
         Activity::Paging => "0.40 0.10 0.10",
         Activity::Wait => "0.90 0.90 0.90",
     }

@@ -54,6 +54,8 @@ impl MachineObserver<Vec<u8>> for Interpreter {
             machine::Activity::Pack => Activity::Pack,
             machine::Activity::Copy => Activity::Copy,
             machine::Activity::WaitForRoom => Activity::WaitForRoom,
+            machine::Activity::Forward => Activity::Forward,
+            machine::Activity::WaitForDisplay => Activity::WaitForDisplay,
             machine::Activity::Idle => Activity::Wait,
         };
         self.observer.borrow_mut().activity(rank, activity, from, to);

@@ -79,6 +79,10 @@ pub enum Activity {
     WaitForRoom,
     /// It waits for pages that were not in memory.
     Paging,
+    /// It sends updates on to the display.
+    Forward,
+    /// It waits for room on the way to the display.
+    WaitForDisplay,
     /// It waits for something to arrive.
     Wait,
 }
@@ -96,6 +100,8 @@ impl Activity {
             Activity::Copy => "copy",
             Activity::WaitForRoom => "wait for room",
             Activity::Paging => "paging",
+            Activity::Forward => "forward",
+            Activity::WaitForDisplay => "wait for display",
             Activity::Wait => "wait",
         }
     }
