@@ -1,5 +1,6 @@
 //! The one door to the simulator: beyond it nothing here knows how a kernel or a link works.
 
+use std::borrow::Cow;
 use std::cell::RefCell;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -9,18 +10,22 @@ use multicomputer::Machine;
 use radiosity::{Hemisphere, HemisphereKind, Operation, PatchSize, Rgb};
 use serde::Serialize;
 use virtwall::{
-    Ending, Instant, KeptShots, Outcome, Problem, ProblemError, ProblemOptions, Rules, Run, Thing,
+    Ending, Instant, KeptShots, Outcome, Problem, ProblemError, ProblemOptions, Rules, Run,
+    RunError, SharedObserver, Step, Thing,
 };
 
+use crate::display::DisplayFigures;
 use crate::experiment::{self as fields, Experiment};
 use crate::fault::Fault;
 use crate::figures::{Energy, Figures};
 use crate::find::Found;
+use crate::knobs;
 use crate::machine_file::MachineFile;
 use crate::message_layer::{self, MessageLayerFigures};
 use crate::network;
 use crate::node_memory;
 use crate::settings::{Settings, WrongField};
+use crate::start_up::StartUpFigures;
 
 /// What the programs run on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
@@ -55,15 +60,20 @@ pub fn load_machine(found: &Found) -> Result<MachineFile, Fault> {
     }
 }
 
-/// Makes sure that a machine with memory gives everything a size.
+/// Makes sure that a machine with memory gives everything a size, and one with a start-up every step a
+/// price.
 fn sized(file: MachineFile, found: &Found) -> Result<MachineFile, Fault> {
-    match file.machine.node_memory.as_ref().and_then(Thing::without_size) {
-        None => Ok(file),
-        Some(thing) => {
-            let message = format!("no size of \"{}\"; expected one of each", thing.name());
-            Err(Fault::of_file(found.path.display(), message))
+    let machine = &file.machine;
+    let thing = machine.node_memory.as_ref().and_then(Thing::without_size);
+    let step = machine.start_up.as_ref().and_then(Step::without_price);
+    let message = match (thing, step) {
+        (Some(thing), _) => format!("no size of \"{}\"; expected one of each", thing.name()),
+        (_, Some(step)) => {
+            format!("start_up.operations: no price of \"{}\"; expected one of each", step.name())
         }
-    }
+        (None, None) => return Ok(file),
+    };
+    Err(Fault::of_file(found.path.display(), message))
 }
 
 /// Meshes and cuts a scene.
@@ -112,7 +122,8 @@ pub fn run(
     }
 }
 
-/// Runs a point's run to the end, on the simulated `machine` or on threads.
+/// Runs a point's run to the end, on the simulated `machine`, where it can be observed, or on threads:
+/// its figures, and its radiosities by environment.
 ///
 /// # Errors
 /// Why the run did not end.
@@ -121,16 +132,39 @@ pub fn carry_out(
     point: &Experiment,
     on: On,
     machine: &Machine,
-) -> Result<Figures, String> {
-    let outcome = match on {
-        On::Simulation => network::simulate(run, &node_memory::machine(machine, point), point),
-        On::Threads => virtwall::run_on_threads(run).map(|outcome| (outcome, None)),
+    scene_bytes: u64,
+    observer: Option<SharedObserver>,
+) -> Result<(Figures, Vec<Vec<Rgb>>), String> {
+    let machine = &*changed(machine, point);
+    let simulated = || {
+        let start_up = virtwall::start_up(run, machine, scene_bytes)?;
+        let (outcome, network) = network::simulate(run, machine, point, observer)?;
+        Ok((outcome, network, start_up))
     };
-    let (outcome, network) = outcome.map_err(|error| error.to_string())?;
+    let outcome = match on {
+        On::Simulation => simulated(),
+        On::Threads => virtwall::run_on_threads(run).map(|outcome| (outcome, None, None)),
+    };
+    let (outcome, network, start_up) = outcome.map_err(|error: RunError| error.to_string())?;
+    let start_up = start_up.as_ref().map(StartUpFigures::of);
     let tells = on == On::Simulation && message_layer::tells(machine);
     let message_layer = tells.then(|| MessageLayerFigures::of(&outcome.layer()));
     let figures = figures(&run.problem, &outcome, on == On::Simulation);
-    Ok(Figures { network, message_layer, ..figures })
+    let counted = start_up.filter(|_| point.count_start_up).map_or(0.0, |s| s.start_up_s);
+    let time_s = figures.time_s.map(|time_s| time_s + counted);
+    let figures = Figures { time_s, network, message_layer, start_up, ..figures };
+    Ok((figures, outcome.radiosity))
+}
+
+/// The machine as a point of an experiment has it.
+fn changed<'a>(machine: &'a Machine, point: &Experiment) -> Cow<'a, Machine> {
+    if point.node_memory.is_empty() && point.display.is_empty() {
+        return Cow::Borrowed(machine);
+    }
+    let mut machine = machine.clone();
+    machine.node_memory.iter_mut().for_each(|memory| point.node_memory.lay_over(memory));
+    machine.display.iter_mut().for_each(|display| point.display.lay_over(display));
+    Cow::Owned(machine)
 }
 
 /// Radiosity in W/m², by environment and patch.
@@ -147,7 +181,7 @@ pub fn light_at(
     machine: &Machine,
     times: &[Time],
 ) -> Result<(Vec<Light>, Time), String> {
-    let machine = node_memory::machine(machine, point);
+    let machine = changed(machine, point);
     let light = Rc::new(RefCell::new(Vec::new()));
     let visit = {
         let light = Rc::clone(&light);
@@ -210,6 +244,9 @@ fn figures(problem: &Problem, outcome: &Outcome, virtual_time: bool) -> Figures 
         network: None,
         memory: node_memory::figures(outcome),
         message_layer: None,
+        errors: None,
+        display: outcome.display.as_ref().map(DisplayFigures::of),
+        start_up: None,
         work: outcome.work.counts().map(|(op, n)| (op.name().to_owned(), n)).collect(),
     }
 }
@@ -235,5 +272,6 @@ fn rules(point: &Experiment) -> Rules {
             fields::Mapping::Cyclic => virtwall::Mapping::Cyclic,
             fields::Mapping::Random => virtwall::Mapping::Random(point.seed),
         },
+        shooting: knobs::shooting(point),
     }
 }

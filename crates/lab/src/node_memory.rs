@@ -1,13 +1,10 @@
 //! Memory of the nodes: what an experiment changes of a machine's, and what runs tell of it.
 
-use std::borrow::Cow;
-
-use multicomputer::{Machine, NodeMemory};
+use multicomputer::NodeMemory;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use virtwall::{Outcome, Thing};
 
-use crate::experiment::Experiment;
 use crate::quantity::{Period, Size};
 
 /// What an experiment says of the nodes' memory in place of the machine's file.
@@ -31,7 +28,8 @@ impl NodeMemoryFields {
         *self == NodeMemoryFields::default()
     }
 
-    fn lay_over(&self, memory: &mut NodeMemory) {
+    /// Changes what the experiment names.
+    pub fn lay_over(&self, memory: &mut NodeMemory) {
         let bytes = |size: &Size| size.value().round() as u64;
         if let Some(available) = &self.available {
             memory.available = bytes(available);
@@ -52,16 +50,6 @@ pub struct NodeMemoryFigures {
     pub high_water: u64,
     /// How long nodes waited for pages, all added, seconds.
     pub paging_s: f64,
-}
-
-/// The machine as a point of an experiment has it.
-pub fn machine<'a>(machine: &'a Machine, point: &Experiment) -> Cow<'a, Machine> {
-    let mut machine = Cow::Borrowed(machine);
-    if !point.node_memory.is_empty() {
-        let memory = &mut machine.to_mut().node_memory;
-        memory.iter_mut().for_each(|memory| point.node_memory.lay_over(memory));
-    }
-    machine
 }
 
 /// The figures of a run on a machine whose memory is modelled.

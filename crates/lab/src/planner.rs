@@ -1,10 +1,14 @@
 //! How a plan is made from an experiment file: every check there is, and nothing loaded twice.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use multicomputer::Machine;
+use reference::parallel;
 use serde_json::Value;
 
+use crate::answer::{self, Stored};
 use crate::columns;
 use crate::comparison::Comparison;
 use crate::digest::FileDigest;
@@ -13,8 +17,9 @@ use crate::engine;
 use crate::experiment::{Experiment, Plot};
 use crate::fault::{Fault, unknown};
 use crate::file::{PLAIN, is_plain};
-use crate::find::{Shelf, find};
+use crate::find::{Found, Shelf, find};
 use crate::host_clock::HostClock;
+use crate::knobs;
 use crate::machine_file::MachineFile;
 use crate::measure::Measure;
 use crate::network;
@@ -29,12 +34,12 @@ const MOST_ENVIRONMENTS: u32 = 65_536;
 
 impl Plan {
     /// Reads an experiment file, lays `--set path=value` arguments over it, and validates all of
-    /// it, the scenes and machines that it names included.
+    /// it, the scenes and machines that it names included; `threads` make scenes ready side by side.
     ///
     /// # Errors
     /// The first fault met. Nothing was written.
-    pub fn read(path: &Path, arguments: &[String]) -> Result<Plan, Fault> {
-        Plan::of(path, Document::read(path)?, arguments)
+    pub fn read(path: &Path, arguments: &[String], threads: usize) -> Result<Plan, Fault> {
+        Plan::of(path, Document::read(path)?, arguments, threads)
     }
 
     /// Reads an experiment from a document, as if it were the file at `path`.
@@ -45,6 +50,7 @@ impl Plan {
         path: &Path,
         mut document: Document,
         arguments: &[String],
+        threads: usize,
     ) -> Result<Plan, Fault> {
         for argument in arguments {
             document.set(argument)?;
@@ -55,9 +61,11 @@ impl Plan {
             folder: path.parent().unwrap_or(Path::new("")),
             sweep: &Sweep::of(&document)?,
             document: &document,
-            scenes: BTreeMap::new(),
+            threads,
+            scenes: Vec::new(),
             machines: Vec::new(),
-            problems: Vec::new(),
+            references: BTreeMap::new(),
+            stored: Vec::new(),
         };
         planner.plan()
     }
@@ -69,17 +77,40 @@ struct Planner<'a> {
     folder: &'a Path,
     document: &'a Document,
     sweep: &'a Sweep,
-    /// With the CPU seconds that each took.
-    scenes: BTreeMap<PathBuf, (Scene, f64)>,
+    threads: usize,
+    scenes: Vec<Found>,
     machines: Vec<Equipment>,
-    problems: Vec<Prepared>,
+    /// Which of those stored, by file and scene.
+    references: BTreeMap<(PathBuf, usize), usize>,
+    stored: Vec<Stored>,
 }
+
+/// A point of the sweep whose scene is yet to be read.
+struct Draft<'a> {
+    point: &'a Point,
+    typed: Experiment,
+    /// Index into [`Planner::scenes`].
+    scene: usize,
+    /// Index into [`Planner::machines`].
+    machine: usize,
+}
+
+/// A scene that was read, and the CPU seconds that it took.
+type Loaded = (Scene, f64);
 
 impl Planner<'_> {
     /// Makes the plan.
     fn plan(mut self) -> Result<Plan, Fault> {
         let name = self.name()?;
-        let runs = self.sweep.points.iter().map(|point| self.run(point));
+        let drafts = self.sweep.points.iter().map(|point| self.draft(point));
+        let drafts = drafts.collect::<Result<Vec<Draft>, Fault>>()?;
+        let scenes = self.load()?;
+        let (problems, problem_of) = self.problems(&drafts, &scenes)?;
+        let runs = drafts.into_iter().zip(problem_of).map(|(draft, problem)| {
+            let stored = self.reference(&draft, &scenes[draft.scene].0, &problems[problem])?;
+            let Draft { point, typed, machine, .. } = draft;
+            Ok(Run { index: point.index.clone(), point: typed, problem, machine, stored })
+        });
         let runs = runs.collect::<Result<Vec<Run>, Fault>>()?;
         let first = &runs[0].point;
         let (title, plots) = (first.title.clone(), first.plots.clone());
@@ -87,20 +118,22 @@ impl Planner<'_> {
         let (comparison, compared) = self.comparison(first)?;
 
         let mut files: Vec<FileDigest> =
-            self.scenes.values().flat_map(|(s, _)| s.digests.clone()).collect();
+            scenes.iter().flat_map(|(scene, _)| scene.digests.clone()).collect();
         files.extend(self.machines.iter().flat_map(|machine| machine.digests.clone()));
         files.extend(compared);
+        files.extend(self.stored.iter().map(|stored| stored.digest.clone()));
         files.sort();
         files.dedup();
-        let warnings = self.scenes.values().flat_map(|(s, _)| s.warnings.clone()).collect();
+        let warnings = scenes.iter().flat_map(|(scene, _)| scene.warnings.clone()).collect();
         let plan = Plan {
             name,
             title,
             resolved,
             axes: self.sweep.axes.clone(),
             runs,
-            problems: self.problems,
+            problems,
             machines: self.machines,
+            references: self.stored,
             comparison,
             plots,
             warnings,
@@ -120,8 +153,8 @@ impl Planner<'_> {
         Err(Fault::of_file(&self.document.file, message))
     }
 
-    /// Reads and checks one point of the sweep.
-    fn run(&mut self, point: &Point) -> Result<Run, Fault> {
+    /// Reads and checks one point of the sweep, but for its scene.
+    fn draft<'p>(&mut self, point: &'p Point) -> Result<Draft<'p>, Fault> {
         let locate = |place| self.sweep.place_in_file(point, place);
         let typed: Experiment = self.document.typed(&point.value, locate)?;
         let refuse = |field, message: String| Err(self.fault(point, field, message));
@@ -146,15 +179,46 @@ impl Planner<'_> {
             );
             return Err(self.fault(point, "processors", message));
         }
-        if self.machines[machine].machine.node_memory.is_none() && !typed.node_memory.is_empty() {
-            let message = format!("the memory of \"{}\" is not modelled", typed.machine);
-            let message = message + "; expected a machine whose file has \"node_memory\"";
-            return Err(self.fault(point, "node_memory", message));
+        if let Some((field, what)) = lacks(&self.machines[machine].machine, &typed) {
+            let message = format!("the {what} of \"{}\" is not modelled", typed.machine);
+            let section = if field == "count_start_up" { "start_up" } else { field };
+            let message = message + &format!("; expected a machine whose file has \"{section}\"");
+            return Err(self.fault(point, field, message));
         }
         network::check(&self.machines[machine].machine, typed.network)
             .map_err(|error| self.fault(point, "network", error.to_string()))?;
-        let problem = self.problem(point, &typed)?;
-        Ok(Run { index: point.index.clone(), point: typed, problem, machine })
+        knobs::check(&typed).map_err(|(field, message)| self.fault(point, field, message))?;
+        let scene = self.scene(point, &typed)?;
+        Ok(Draft { point, typed, scene, machine })
+    }
+
+    /// The stored reference of a draft, read once; none if it has none, or a dense one.
+    fn reference(
+        &mut self,
+        draft: &Draft,
+        scene: &Scene,
+        problem: &Prepared,
+    ) -> Result<Option<usize>, Fault> {
+        let Some(name) = draft.typed.reference.as_deref() else { return Ok(None) };
+        let refuse = |message| self.fault(draft.point, "reference", message);
+        if name == answer::DENSE {
+            let patches = problem.problem.patches();
+            let most = answer::MOST_DENSE;
+            let message = format!("\"{name}\" for {patches} patches; expected at most {most}");
+            return if patches > most { Err(refuse(message)) } else { Ok(None) };
+        }
+        let stem = || self.scenes[draft.scene].path.file_stem().unwrap_or_default();
+        let name =
+            if name == answer::STORED { stem().to_string_lossy() } else { Cow::Borrowed(name) };
+        let found = find(self.folder, Shelf::References, &name).map_err(refuse)?;
+        let key = (found.path.clone(), draft.scene);
+        if let Some(&known) = self.references.get(&key) {
+            return Ok(Some(known));
+        }
+        let stored = Stored::read(&found, &scene.geometry)?;
+        self.stored.push(stored);
+        self.references.insert(key, self.stored.len() - 1);
+        Ok(Some(self.stored.len() - 1))
     }
 
     /// A fault of a field at one point of the sweep.
@@ -174,28 +238,55 @@ impl Planner<'_> {
         Ok(self.machines.len() - 1)
     }
 
-    /// The scene of this point, meshed and cut as it says, each such problem built once.
-    fn problem(&mut self, point: &Point, typed: &Experiment) -> Result<usize, Fault> {
+    /// Where the scene of this point is.
+    fn scene(&mut self, point: &Point, typed: &Experiment) -> Result<usize, Fault> {
         let found = find(self.folder, Shelf::Scenes, &typed.scene)
             .map_err(|message| self.fault(point, "scene", message))?;
-        let clock = HostClock::start();
-        if !self.scenes.contains_key(&found.path) {
-            let scene = Scene::load(&found)?;
-            self.scenes.insert(found.path.clone(), (scene, clock.cpu_seconds()));
+        if let Some(known) = self.scenes.iter().position(|scene| scene.path == found.path) {
+            return Ok(known);
         }
-        let (scene, loading_s) = &self.scenes[&found.path];
-        let settings = Settings::of(typed, scene)
-            .map_err(|(field, message)| self.fault(point, field, message))?;
-        if let Some(built) = self.problems.iter().position(|p| p.settings == settings) {
-            return Ok(built);
+        self.scenes.push(found);
+        Ok(self.scenes.len() - 1)
+    }
+
+    /// Reads all scenes, each once.
+    fn load(&self) -> Result<Vec<Loaded>, Fault> {
+        let load = |scene: usize| {
+            let clock = HostClock::start();
+            Ok((Scene::load(&self.scenes[scene])?, clock.cpu_seconds()))
+        };
+        parallel::map(self.scenes.len(), self.threads, load, || ()).into_iter().collect()
+    }
+
+    /// The scenes, meshed and cut as the points say, each such problem once, and which is whose.
+    fn problems(
+        &self,
+        drafts: &[Draft],
+        scenes: &[Loaded],
+    ) -> Result<(Vec<Prepared>, Vec<usize>), Fault> {
+        let mut wanted: Vec<(Settings, &Draft)> = Vec::new();
+        let mut problem_of = Vec::new();
+        for draft in drafts {
+            let settings = Settings::of(&draft.typed, &scenes[draft.scene].0)
+                .map_err(|(field, message)| self.fault(draft.point, field, message))?;
+            let known = wanted.iter().position(|(other, _)| *other == settings);
+            problem_of.push(known.unwrap_or(wanted.len()));
+            if known.is_none() {
+                wanted.push((settings, draft));
+            }
         }
-        let clock = HostClock::start();
-        let problem = engine::problem(&scene.geometry, &settings)
-            .map_err(|(field, message)| self.fault(point, field, message))?;
-        let set_up_s = loading_s + clock.cpu_seconds();
-        let digests = scene.digests.clone();
-        self.problems.push(Prepared { settings, problem, digests, set_up_s });
-        Ok(self.problems.len() - 1)
+        let prepare = |number: usize| {
+            let (settings, draft) = &wanted[number];
+            let (scene, loading_s) = &scenes[draft.scene];
+            let clock = HostClock::start();
+            let problem = engine::problem(&scene.geometry, settings)
+                .map_err(|(field, message)| self.fault(draft.point, field, message))?;
+            let set_up_s = loading_s + clock.cpu_seconds();
+            let (settings, digests) = (settings.clone(), scene.digests.clone());
+            Ok(Prepared { settings, problem, digests, scene_bytes: scene.bytes, set_up_s })
+        };
+        let problems = parallel::map(wanted.len(), self.threads, prepare, || ());
+        Ok((problems.into_iter().collect::<Result<_, Fault>>()?, problem_of))
     }
 
     /// The experiment file with every default filled in: a file that says the same.
@@ -217,6 +308,17 @@ impl Planner<'_> {
         }
         Ok((Comparison::read(&path)?, Some(FileDigest::of(&path, name)?)))
     }
+}
+
+/// The first field that asks for what a machine does not model, and what that is.
+fn lacks(machine: &Machine, typed: &Experiment) -> Option<(&'static str, &'static str)> {
+    if machine.node_memory.is_none() && !typed.node_memory.is_empty() {
+        return Some(("node_memory", "memory"));
+    }
+    if machine.display.is_none() && !typed.display.is_empty() {
+        return Some(("display", "display"));
+    }
+    (machine.start_up.is_none() && typed.count_start_up).then_some(("count_start_up", "start-up"))
 }
 
 /// Refuses plots of columns that there will not be, or with names that lead elsewhere.

@@ -13,11 +13,18 @@ use common::{Project, SWEEP};
 use lab::{Event, On, Options, Plan, Results, carry_out};
 
 fn options(threads: usize) -> Options {
-    Options { threads, fresh: false, on: On::Simulation, memory: 1 << 30, shot_files: None }
+    Options {
+        threads,
+        fresh: false,
+        on: On::Simulation,
+        memory: 1 << 30,
+        shot_files: None,
+        traces: None,
+    }
 }
 
 fn plan(project: &Project) -> Plan {
-    Plan::read(&project.path("experiments/x.json"), &[]).unwrap()
+    Plan::read(&project.path("experiments/x.json"), &[], 1).unwrap()
 }
 
 /// Carries the plan out; returns the results, and how many runs were found and how many done.

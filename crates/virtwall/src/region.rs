@@ -1,20 +1,32 @@
 //! The environments of one processor, their light, and the choice among their patches.
 
+use std::collections::BTreeSet;
+use std::mem;
 use std::sync::Arc;
 
-use radiosity::{Greatest, Light, LocalEnvironment, Mask, Operation, Rgb, Shot, Work};
+use radiosity::{
+    Greatest, Light, LocalEnvironment, Mask, Operation, Part, Rgb, Shot, Source, Work,
+};
 
 use crate::message::{Parcel, PatchUpdate};
 use crate::problem::Problem;
-use crate::rules::Selection;
+use crate::rules::{Rules, Selection};
+use crate::shooting::{Shooting, SourceSplit};
 
 /// What one processor owns of the scene.
 pub struct Region {
     problem: Arc<Problem>,
     selection: Selection,
+    shooting: Shooting,
     /// Local patches below this value are not selected.
     threshold: f64,
     holdings: Vec<Holding>,
+    /// The value of the best patch of each holding.
+    bests: Greatest,
+    /// Holdings whose light has changed since the best patch was last looked for.
+    changed: BTreeSet<usize>,
+    /// Holdings whose light has changed since new best sources were last asked for.
+    untold: BTreeSet<usize>,
 }
 
 /// One environment and its light.
@@ -23,8 +35,6 @@ struct Holding {
     light: Light,
     /// The values of its patches.
     values: Greatest,
-    /// Whether the light has changed since the best patch was last looked for.
-    changed: bool,
     /// The best patch when last asked for new ones.
     best: Option<u32>,
     /// The sum of unshot power, W; none since the light last changed.
@@ -32,9 +42,8 @@ struct Holding {
 }
 
 impl Holding {
-    fn note_change(&mut self) {
-        self.changed = true;
-        self.unshot = None;
+    fn best_value(&self) -> f64 {
+        self.values.best().map_or(0.0, |(value, _)| value)
     }
 }
 
@@ -43,49 +52,62 @@ impl Region {
     pub(crate) fn new(
         problem: &Arc<Problem>,
         environments: impl Iterator<Item = u32>,
-        selection: Selection,
+        rules: &Rules,
         threshold: f64,
     ) -> Region {
+        let Rules { selection, shooting, .. } = *rules;
         let hold = |environment: u32| {
             let geometry = &problem.environments[environment as usize];
             let light = Light::new(&problem.space, geometry);
             let value = |patch: usize| value(selection, geometry, &light, patch as u32);
             let values = Greatest::new((0..light.unshot.len()).map(value));
-            Holding { environment, light, values, changed: true, best: None, unshot: None }
+            Holding { environment, light, values, best: None, unshot: None }
         };
-        let holdings = environments.map(hold).collect();
-        Region { problem: Arc::clone(problem), selection, threshold, holdings }
+        let holdings: Vec<Holding> = environments.map(hold).collect();
+        Region {
+            problem: Arc::clone(problem),
+            selection,
+            shooting,
+            threshold,
+            bests: Greatest::new(holdings.iter().map(Holding::best_value)),
+            changed: (0..holdings.len()).collect(),
+            untold: (0..holdings.len()).collect(),
+            holdings,
+        }
+    }
+
+    fn note_change(&mut self, holding: usize) {
+        let held = &mut self.holdings[holding];
+        held.unshot = None;
+        self.bests.set(holding as u32, held.best_value());
+        self.changed.insert(holding);
+        self.untold.insert(holding);
     }
 
     /// The local patch with the greatest value at or above the threshold: its value, holding and
     /// number; of equals the lowest number.
     pub(crate) fn best_patch(&self) -> Option<(f64, usize, u32)> {
-        let mut best: Option<(f64, usize, u32)> = None;
-        for (holding, held) in self.holdings.iter().enumerate() {
-            let Some((value, patch)) = held.values.best() else { continue };
-            if value >= self.threshold && best.is_none_or(|(other, ..)| value > other) {
-                best = Some((value, holding, patch));
-            }
-        }
-        best
+        let (_, holding) = self.bests.best()?;
+        let (value, patch) = self.holdings[holding as usize].values.best()?;
+        (value >= self.threshold).then_some((value, holding as usize, patch))
     }
 
     /// The best patch of each environment, if it is at or above the threshold and another than the
     /// last time.
     pub(crate) fn new_best_sources(&mut self, mut tell: impl FnMut(Parcel)) {
-        for i in 0..self.holdings.len() {
+        for i in mem::take(&mut self.untold) {
             let held = &mut self.holdings[i];
             let best = held.values.best().filter(|&(value, _)| value >= self.threshold);
             let best = best.map(|(_, patch)| patch);
-            if let (true, Some(patch)) = (std::mem::replace(&mut held.best, best) != best, best) {
-                tell(self.parcel(i, patch));
+            if let (true, Some(patch)) = (mem::replace(&mut held.best, best) != best, best) {
+                self.parcels(i, patch).into_iter().for_each(&mut tell);
             }
         }
     }
 
     /// The environments that it is looked for in: those whose light has changed.
     pub(crate) fn changed(&self) -> impl Iterator<Item = u32> {
-        self.holdings.iter().filter(|held| held.changed).map(|held| held.environment)
+        self.changed.iter().map(|&holding| self.holdings[holding].environment)
     }
 
     /// The work of looking for it. The host looks it up; the virtual processor is charged for a linear
@@ -98,32 +120,52 @@ impl Region {
     pub(crate) fn scan(&mut self) -> Work {
         let mut work = Work::NONE;
         work.count(Operation::PatchScan, self.holdings.len() as u64);
-        for held in &mut self.holdings {
-            if std::mem::take(&mut held.changed) {
-                work.count(Operation::PatchScan, held.light.unshot.len() as u64);
-            }
+        for holding in mem::take(&mut self.changed) {
+            work.count(Operation::PatchScan, self.holdings[holding].light.unshot.len() as u64);
         }
         work
     }
 
-    /// Take a patch's unshot power as a source with an all-true mask (Figure 2).
-    pub(crate) fn take(&mut self, holding: usize, patch: u32) -> Parcel {
-        let parcel = self.parcel(holding, patch);
+    /// Take a patch's unshot power as a source with an all-true mask (Figure 2), or as several.
+    pub(crate) fn take(&mut self, holding: usize, patch: u32) -> Vec<Parcel> {
+        let parcels = self.parcels(holding, patch);
+        let share = self.share(holding, patch);
         let held = &mut self.holdings[holding];
-        held.light.unshot[patch as usize] = Rgb::ZERO;
-        held.values.set(patch, 0.0);
-        held.note_change();
-        parcel
+        let unshot = &mut held.light.unshot[patch as usize];
+        // Over-shot, it has less than nothing left.
+        *unshot *= 1.0 - share;
+        let geometry = &self.problem.environments[held.environment as usize];
+        let value = value(self.selection, geometry, &held.light, patch);
+        held.values.set(patch, value);
+        self.note_change(holding);
+        parcels
     }
 
-    /// The source that a patch would be now.
-    pub(crate) fn parcel(&self, holding: usize, patch: u32) -> Parcel {
-        let problem = &self.problem;
+    /// The part of its unshot power that a patch shoots.
+    fn share(&self, holding: usize, patch: u32) -> f64 {
+        let geometry = &self.problem.environments[self.holdings[holding].environment as usize];
+        self.shooting.share(geometry.emitted_power(&self.problem.space, patch))
+    }
+
+    /// The source that a patch would be now, or several where it is to be cut.
+    fn parcels(&self, holding: usize, patch: u32) -> Vec<Parcel> {
+        let Problem { space, environments, hemisphere, .. } = &*self.problem;
         let Holding { environment, light, .. } = &self.holdings[holding];
-        let geometry = &problem.environments[*environment as usize];
-        let source = light.source(&problem.space, geometry, *environment, patch);
-        let mask = Mask::all(problem.hemisphere.pixels());
-        Parcel { environment: *environment, source, mask, form_factor: 1.0 }
+        let geometry = &environments[*environment as usize];
+        let mut source = light.source(space, geometry, *environment, patch);
+        source.power *= self.share(holding, patch);
+        let SourceSplit { nearer_than, most } = self.shooting.split;
+        let along = match nearer_than.is_finite() {
+            true => geometry.parts_needed(space, patch, nearer_than, most),
+            false => most,
+        };
+        let parcel = |part: Part| Parcel {
+            environment: *environment,
+            source: Source { centre: part.centre, power: source.power * part.share, ..source },
+            mask: Mask::all(hemisphere.pixels()),
+            form_factor: 1.0,
+        };
+        geometry.parts(space, patch, along).into_iter().map(parcel).collect()
     }
 
     /// Update the radiosities of the environment in which a source was shot. Returns the power that
@@ -138,7 +180,7 @@ impl Region {
             let value = value(self.selection, geometry, &held.light, patch);
             held.values.set(patch, value);
         }
-        held.note_change();
+        self.note_change(place);
         reflected
     }
 
