@@ -38,6 +38,7 @@ mod shot;
 mod solve;
 mod space;
 mod split;
+mod stitch;
 mod text;
 mod tone;
 mod tree;
