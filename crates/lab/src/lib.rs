@@ -25,10 +25,12 @@ mod held;
 mod host_clock;
 mod host_memory;
 mod host_times;
+mod interfaces;
 mod json;
 mod knobs;
 mod machine_file;
 mod measure;
+mod medium;
 mod message_layer;
 mod network;
 mod networks;
@@ -43,6 +45,7 @@ mod program;
 mod quantity;
 mod queue;
 mod ray_bench;
+mod reels;
 mod report;
 mod results;
 mod runner;
@@ -60,6 +63,7 @@ mod summary;
 mod sweep;
 mod table;
 mod traces;
+mod viewing;
 
 pub use check::check;
 pub use engine::{Light, On};
@@ -80,6 +84,7 @@ pub use shot_files::ShotFiles;
 pub use stage::{Stage, StagedRun, Which};
 pub use table::Table;
 pub use traces::Traces;
+pub use viewing::Viewing;
 
 /// Draws a plot of a table as the text of an SVG file; a column `paper_<y>` or
 /// `published_<y>` holds published points.
