@@ -17,6 +17,7 @@ mod run;
 mod scene_make;
 mod scene_show;
 mod schema;
+mod stability;
 mod steps;
 
 use std::process::ExitCode;
@@ -51,6 +52,8 @@ enum Command {
     Formfactors(formfactors::Arguments),
     /// Solve a scene as exactly as can be, and store the answer for others to be held against.
     Reference(make_reference::Arguments),
+    /// Try the cases in which such methods fail, and draw the page of failures.
+    Stability(stability::Arguments),
     /// Measure how fast this host is.
     #[command(subcommand)]
     Bench(BenchCommand),
@@ -97,6 +100,7 @@ fn main() -> ExitCode {
         Command::Machine(MachineCommand::Replay(arguments)) => machine_replay::run(&arguments),
         Command::Formfactors(arguments) => formfactors::run(&arguments),
         Command::Reference(arguments) => make_reference::run(&arguments),
+        Command::Stability(arguments) => stability::run(&arguments),
         Command::Bench(BenchCommand::Rays(arguments)) => bench_rays::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
     };

@@ -130,6 +130,16 @@ pub fn carry_out(
     Ok(Figures { network, message_layer, ..figures })
 }
 
+/// Runs a point's run to the end on the simulated `machine`: all that it found.
+///
+/// # Errors
+/// Why the run did not end.
+pub fn outcome(run: &Run, point: &Experiment, machine: &Machine) -> Result<Outcome, String> {
+    let machine = node_memory::machine(machine, point);
+    let (outcome, _) = network::simulate(run, &machine, point).map_err(|error| error.to_string())?;
+    Ok(outcome)
+}
+
 /// The outcome's figures; times only if they are virtual.
 fn figures(problem: &Problem, outcome: &Outcome, virtual_time: bool) -> Figures {
     let energy = &outcome.energy;

@@ -53,8 +53,10 @@ mod shot_files;
 mod summary;
 mod sweep;
 mod table;
+mod trials;
 
 pub use check::check;
+pub use document::Document;
 pub use engine::On;
 pub use experiment::{Plot, experiment_schema};
 pub use fault::Fault;
@@ -64,6 +66,7 @@ pub use host_memory::half_of_free_memory;
 pub use networks::text as networks_text;
 pub use open_machine::OpenMachine;
 pub use open_scene::OpenScene;
+pub use place::Place;
 pub use plan::Plan;
 pub use ray_bench::RayBench;
 pub use results::{Results, write_host_times};
@@ -71,6 +74,7 @@ pub use runner::{Endings, Event, Options, Watch, carry_out};
 pub use scene_file::scene_schema;
 pub use shot_files::ShotFiles;
 pub use table::Table;
+pub use trials::Trials;
 
 /// Draws a plot of a table as the text of an SVG file; a column `paper_<y>` holds published points.
 pub fn svg(table: &Table, plot: &Plot) -> String {

@@ -38,12 +38,20 @@ impl Plan {
         for argument in arguments {
             document.set(argument)?;
         }
+        Plan::of(&document, path)
+    }
+
+    /// Validates an experiment that stands in a document, as if it were the file at `path`.
+    ///
+    /// # Errors
+    /// The first fault met.
+    pub fn of(document: &Document, path: &Path) -> Result<Plan, Fault> {
         document.refuse_unknown_keys::<Experiment>()?;
         let planner = Planner {
             path,
             folder: path.parent().unwrap_or(Path::new("")),
-            sweep: &Sweep::of(&document)?,
-            document: &document,
+            sweep: &Sweep::of(document)?,
+            document,
             scenes: BTreeMap::new(),
             machines: Vec::new(),
             problems: Vec::new(),
