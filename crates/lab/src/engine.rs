@@ -76,6 +76,7 @@ pub fn problem(scene: &radiosity::Scene, settings: &Settings) -> Result<Arc<Prob
     };
     let hemisphere = Hemisphere::new(kind, settings.pixels, settings.rotated)
         .map_err(|error| ("hemisphere.pixels", error.to_string()))?;
+    let hemisphere = if settings.by_place { hemisphere.by_place() } else { hemisphere };
     let (reflector, emitter) = (settings.patch_size, settings.emitter_patch_size);
     let options = ProblemOptions {
         patch_size: PatchSize { reflector, emitter },
@@ -120,7 +121,7 @@ pub fn carry_out(
     machine: &Machine,
 ) -> Result<Figures, String> {
     let outcome = match on {
-        On::Simulation => network::simulate(run, &node_memory::machine(machine, point), point),
+        On::Simulation => network::simulate(run, &point.node_memory.laid_over(machine), point),
         On::Threads => virtwall::run_on_threads(run).map(|outcome| (outcome, None)),
     };
     let (outcome, network) = outcome.map_err(|error| error.to_string())?;
@@ -135,9 +136,10 @@ pub fn carry_out(
 /// # Errors
 /// Why the run did not end.
 pub fn outcome(run: &Run, point: &Experiment, machine: &Machine) -> Result<Outcome, String> {
-    let machine = node_memory::machine(machine, point);
-    let (outcome, _) = network::simulate(run, &machine, point).map_err(|error| error.to_string())?;
-    Ok(outcome)
+    let machine = point.node_memory.laid_over(machine);
+    network::simulate(run, &machine, point)
+        .map(|(outcome, _)| outcome)
+        .map_err(|error| error.to_string())
 }
 
 /// The outcome's figures; times only if they are virtual.

@@ -143,11 +143,20 @@ pub struct Hemisphere {
     /// Whether the directions are turned about the normal by an angle of each source's own, so
     /// that no ray runs along a plane by habit.
     pub rotated: bool,
+    /// Whether the directions lie over each source by its place in the scene, and so turn with the
+    /// scene, rather than by the axes: turned by 90° a scene then has the same light to the last digits.
+    #[serde(skip_serializing_if = "is_false")]
+    pub by_place: bool,
 }
 
 impl Default for Hemisphere {
     fn default() -> Hemisphere {
-        Hemisphere { directions: Directions::Fibonacci, pixels: 30_976, rotated: true }
+        Hemisphere {
+            directions: Directions::Fibonacci,
+            pixels: 30_976,
+            rotated: true,
+            by_place: false,
+        }
     }
 }
 
@@ -270,7 +279,7 @@ impl Plot {
 }
 
 /// A field that is false by default is not told.
-fn is_false(value: &bool) -> bool {
+pub fn is_false(value: &bool) -> bool {
     !value
 }
 

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::cut::{automatic_cells, automatic_cut};
-use crate::experiment::{Directions, Experiment};
+use crate::experiment::{Directions, Experiment, is_false};
 use crate::quantity::Triple;
 use crate::scene::Scene;
 
@@ -37,6 +37,9 @@ pub struct Settings {
     pub pixels: u32,
     /// Whether each source turns them.
     pub rotated: bool,
+    /// Whether they lie by its place.
+    #[serde(skip_serializing_if = "is_false")]
+    pub by_place: bool,
 }
 
 impl Settings {
@@ -67,6 +70,7 @@ impl Settings {
             directions: point.hemisphere.directions,
             pixels: point.hemisphere.pixels,
             rotated: point.hemisphere.rotated,
+            by_place: point.hemisphere.by_place,
         })
     }
 }

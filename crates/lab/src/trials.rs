@@ -28,7 +28,7 @@ impl Trials {
     /// # Errors
     /// The first fault met.
     pub fn of(document: &Document, path: &Path) -> Result<Trials, Fault> {
-        Ok(Trials { plan: Plan::of(document, path)?, file: document.file.clone() })
+        Ok(Trials { plan: Plan::of(document, path, 1)?, file: document.file.clone() })
     }
 
     /// How many runs there are: the product of all lists.
@@ -60,11 +60,7 @@ impl Trials {
     ///
     /// # Errors
     /// If it makes none.
-    pub fn problem_of(
-        &self,
-        run: usize,
-        scene: &radiosity::Scene,
-    ) -> Result<Arc<Problem>, Fault> {
+    pub fn problem_of(&self, run: usize, scene: &radiosity::Scene) -> Result<Arc<Problem>, Fault> {
         let settings = &self.plan.problems[self.plan.runs[run].problem].settings;
         engine::problem(scene, settings)
             .map_err(|(field, message)| Fault::of_file(&self.file, format!("{field}: {message}")))

@@ -78,17 +78,28 @@ impl LayerAccount {
 
 /// What a node is doing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) enum Activity {
+pub enum Activity {
+    /// It runs a kernel.
     Compute,
+    /// It gives a message away.
     Send,
+    /// It takes messages in.
     Receive,
+    /// It waits for pages that were not in memory.
     Paging,
+    /// It makes packets.
     Pack,
+    /// It copies messages that arrived with no receive posted.
     Copy,
+    /// It waits for room in a receiver's buffers.
     WaitForRoom,
+    /// Nothing.
     #[default]
     Idle,
 }
+
+/// Is told a span.
+type Tell = Box<dyn FnMut(Activity, Time, Time)>;
 
 /// An account that is being kept: at any moment the node does one thing, and when it turns to
 /// another the time since the last turn is entered. So nothing is lost and nothing counted twice.
@@ -97,9 +108,16 @@ pub(crate) struct Ledger {
     account: NodeAccount,
     activity: Activity,
     since: Time,
+    /// Is told every span that is entered.
+    observer: Option<Tell>,
 }
 
 impl Ledger {
+    /// Has every span from now on told, as (activity, from, to).
+    pub(crate) fn observe(&mut self, observer: impl FnMut(Activity, Time, Time) + 'static) {
+        self.observer = Some(Box::new(observer));
+    }
+
     /// The node turns to another activity.
     pub(crate) fn turn_to(&mut self, activity: Activity, now: Time) {
         self.enter(now);
@@ -153,6 +171,9 @@ impl Ledger {
                 Activity::WaitForRoom => &mut self.account.layer.waiting_for_room,
                 Activity::Idle => &mut self.account.idle,
             } += spent;
+            if let Some(observer) = self.observer.as_mut().filter(|_| spent > Duration::ZERO) {
+                observer(self.activity, self.since, now);
+            }
         }
         self.since = now;
     }

@@ -20,6 +20,7 @@ mod message_layer;
 mod multicomputer;
 mod network;
 mod node;
+mod observer;
 mod processor;
 pub mod quantity;
 mod record;
@@ -30,7 +31,7 @@ mod topology;
 mod trace;
 mod traffic;
 
-pub use account::{LayerAccount, NodeAccount};
+pub use account::{Activity, LayerAccount, NodeAccount};
 pub use auto::{Choice, choose};
 pub use buffers::{FullBuffers, Rank};
 pub use fault::MachineFault;
@@ -46,6 +47,7 @@ pub use network::{
     Stall, Waiting, Wormhole,
 };
 pub use node::Node;
+pub use observer::{MachineObserver, Sent};
 pub use processor::Processor;
 pub use record::{Letter, Record, Recorder};
 pub use replay::{Course, ReplayDeadlock, replay};

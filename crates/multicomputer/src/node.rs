@@ -95,6 +95,7 @@ impl<M: 'static> Node<M> {
         let (node, layer) = (self.state(), &self.shared.layer);
         let messages = node.take_mail();
         if !messages.is_empty() {
+            self.shared.tell(|observer| observer.read(self.now(), self.rank, messages.len()));
             let (count, unposted) = (messages.len() as u64, node.unposted.take());
             let overhead = || self.shared.wires.borrow().network.receive_overhead();
             let overhead = layer.handover.unwrap_or_else(overhead);

@@ -61,9 +61,9 @@ impl<'a> Bench<'a> {
                 let problem = if change.label().is_empty() {
                     Arc::clone(runs.problem(run))
                 } else {
-                    let changed = change
-                        .of(&runs.problem(run).space.scene)
-                        .map_err(|error| document.fault(&lab::Place::of("changes"), error.to_string()))?;
+                    let changed = change.of(&runs.problem(run).space.scene).map_err(|error| {
+                        document.fault(&lab::Place::of("changes"), error.to_string())
+                    })?;
                     runs.problem_of(run, &changed)?
                 };
                 let labels = [runs.label(run), change.label()];

@@ -1,8 +1,6 @@
 //! Light straight from the lamps: who gets it, and how much.
 
-use radiosity::glam::DVec3;
 use radiosity::{End, Ray, Rgb, Source};
-use reference::element_to_polygon;
 use virtwall::Problem;
 
 use crate::bench::{Bench, Trial};
@@ -53,27 +51,4 @@ pub fn form_factors(problem: &Problem, source: &Source) -> Vec<Vec<f64>> {
         }
     });
     found
-}
-
-/// In rooms without anything that casts shadows: the share of a lamp's light that falls elsewhere than
-/// it does from the lamp's centre by Lambert's contour integral, in the worst case.
-pub fn misdirected(bench: &Bench) -> f64 {
-    let mut greatest: f64 = 0.0;
-    for trial in &bench.trials {
-        let (problem, (lamps, _)) = (&*trial.problem, lamps_and_others(bench, trial));
-        for lamp in &lamps {
-            let found = form_factors(problem, lamp);
-            let mut apart = 0.0;
-            for (environment, found) in problem.environments.iter().zip(&found) {
-                for (patch, found) in (0..).zip(found) {
-                    let outline: Vec<DVec3> = environment.outline(&problem.space, patch);
-                    let own = environment.patches[patch as usize].polygon == lamp.polygon;
-                    let exact = element_to_polygon(lamp.centre, lamp.normal, &outline).max(0.0);
-                    apart += 0.5 * (found - if own { 0.0 } else { exact }).abs();
-                }
-            }
-            greatest = greatest.max(apart);
-        }
-    }
-    greatest
 }

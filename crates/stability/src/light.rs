@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use radiosity::glam::DVec3;
 use radiosity::Rgb;
+use radiosity::glam::DVec3;
 use virtwall::{Ending, Outcome, Problem};
 
 use crate::bench::{Bench, Trial};
@@ -48,7 +48,8 @@ pub fn emissions(problem: &Problem) -> impl Iterator<Item = Vec<f64>> {
 
 /// Radiosities that are no numbers.
 pub fn no_numbers(bench: &Bench) -> Result<u64, String> {
-    let of = |outcome: &Outcome| outcome.radiosity.iter().flatten().filter(|b| !b.is_finite()).count();
+    let of =
+        |outcome: &Outcome| outcome.radiosity.iter().flatten().filter(|b| !b.is_finite()).count();
     Ok(bench.outcomes()?.iter().map(|(_, outcome)| of(outcome) as u64).sum())
 }
 
@@ -56,26 +57,29 @@ pub fn no_numbers(bench: &Bench) -> Result<u64, String> {
 pub fn difference(bench: &Bench) -> Result<f64, String> {
     let outcomes = bench.outcomes()?;
     let Some((first, others)) = outcomes.split_first() else { return Ok(0.0) };
-    let first = by_place(first.0, first.1);
+    let unit = 1e6 / first.0.problem.space.scene.bounds.size().length();
+    let first = by_place(first.0, first.1, unit);
     let mut greatest = 0.0;
     for (trial, outcome) in others {
-        let other = by_place(trial, outcome);
+        let other = by_place(trial, outcome, unit);
         let apart = first.len().abs_diff(other.len());
         if apart > 0 {
-            return Err(format!("{}: {apart} patches more or less; no mesh to compare", trial.label));
+            return Err(format!(
+                "{}: {apart} patches more or less; no mesh to compare",
+                trial.label
+            ));
         }
         greatest = worse(greatest, relative_l2(&first, &other));
     }
     Ok(greatest)
 }
 
-/// A patch's place before its scene was changed, in millionths of the scene's size so that rounding does
-/// not matter; its area, and its radiosity.
+/// By a patch's place and side before its scene was changed, in units of a millionth of the scene, so
+/// that rounding does not matter: its area and its radiosity.
 type Lit = BTreeMap<[i64; 6], (f64, Rgb)>;
 
-fn by_place(trial: &Trial, outcome: &Outcome) -> Lit {
+fn by_place(trial: &Trial, outcome: &Outcome, unit: f64) -> Lit {
     let scene = &trial.problem.space.scene;
-    let unit = 1e6 / scene.bounds.size().length();
     let key = |point: DVec3| (point * unit + 0.25).to_array().map(|x| x.floor() as i64);
     let mut lit = Lit::new();
     for (environment, radiosity) in trial.problem.environments.iter().zip(&outcome.radiosity) {

@@ -40,8 +40,11 @@ fn row(verdict: &Verdict) -> String {
     let settings = case.naive_settings.iter().map(|(name, value)| format!("{name} {value}"));
     let settings = settings.collect::<Vec<_>>().join(", ").replace('"', "");
     let how = case.naive.map_or(settings, |twin| twin.words().to_owned());
-    let naive = each(&|finding| finding.naive.as_ref().map_or(String::new(), |said| told(finding.measure, said)));
-    let naive = [how, naive].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(": ");
+    let naive = each(&|finding| {
+        finding.naive.as_ref().map_or(String::new(), |said| told(finding.measure, said))
+    });
+    let naive =
+        [how, naive].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(": ");
     let ours = each(&|finding| {
         let mark = if finding.holds { "" } else { "**wrong** " };
         format!("{mark}{}", told(finding.measure, &finding.ours))
@@ -82,7 +85,6 @@ fn name(measure: &str) -> &str {
         "brightest" => "brightest over the lamp",
         "exact" => "off the exact answer",
         "same_light" => "light differs by",
-        "misdirected" => "misdirected",
         "no_numbers" => "are no numbers",
         "shots" => "shots",
         other => other,
@@ -178,7 +180,11 @@ pub fn svg(verdicts: &[Verdict]) -> String {
         );
     }
     let none = across(0.0);
-    let _ = writeln!(svg, "<text x=\"{none:.1}\" y=\"{:.1}\" text-anchor=\"middle\">none</text>", foot + STEP);
+    let _ = writeln!(
+        svg,
+        "<text x=\"{none:.1}\" y=\"{:.1}\" text-anchor=\"middle\">none</text>",
+        foot + STEP
+    );
     for (i, (verdict, finding)) in rows.into_iter().enumerate() {
         svg += &marks(verdict, finding, STEP * (i as f64 + 1.8));
     }
@@ -202,11 +208,15 @@ fn marks(verdict: &Verdict, finding: &Finding, y: f64) -> String {
     let at = |said: &Said| said.share().map(across);
     if let Some(x) = at(&finding.bound) {
         let (top, bottom) = (y - 7.0, y + 7.0);
-        let _ = writeln!(svg, "<line x1=\"{x:.1}\" y1=\"{top:.1}\" x2=\"{x:.1}\" y2=\"{bottom:.1}\" stroke=\"#555\"/>");
+        let _ = writeln!(
+            svg,
+            "<line x1=\"{x:.1}\" y1=\"{top:.1}\" x2=\"{x:.1}\" y2=\"{bottom:.1}\" stroke=\"#555\"/>"
+        );
     }
     let naive = finding.naive.as_ref().and_then(at);
     for (x, colour) in [(naive, NAIVE), (at(&finding.ours), OURS)] {
-        let circle = |x| format!("<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4.5\" fill=\"{colour}\"/>\n");
+        let circle =
+            |x| format!("<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4.5\" fill=\"{colour}\"/>\n");
         svg += &x.map_or(String::new(), circle);
     }
     svg
@@ -224,5 +234,8 @@ fn legend() -> String {
     };
     entry(LEFT + 15.0, NAIVE, "a naive method")
         + &entry(LEFT + 140.0, OURS, "ours")
-        + &format!("<text x=\"{}\" y=\"13\">| right, up to here; share of rays or of light</text>\n", LEFT + 210.0)
+        + &format!(
+            "<text x=\"{}\" y=\"13\">| right, up to here; share of rays or of light</text>\n",
+            LEFT + 210.0
+        )
 }

@@ -80,7 +80,7 @@ fn aimed(problem: &Problem, source: &Source) -> Vec<Ray> {
     targets.iter().filter_map(towards).filter(above).map(|d| Ray::new(source.centre, d)).collect()
 }
 
-/// Rays of closed scenes that leave them, or meet a back.
+/// Rays of closed scenes that leave them.
 pub fn leaks(bench: &Bench) -> Count {
     let mut count = Count::default();
     for trial in &bench.trials {
@@ -100,17 +100,13 @@ pub fn leaks(bench: &Bench) -> Count {
 /// The same of one source's hemisphere, whose pixels are all worth the same.
 fn shot_leaks(problem: &Problem, source: &Source) -> Count {
     let (mut lost, pixels) = (0.0, problem.hemisphere.pixels());
-    shoot_through(problem, source, |_, shot, _| lost += shot.escaped + shot.backs);
+    shoot_through(problem, source, |_, shot, _| lost += shot.escaped);
     Count { wrong: (lost * f64::from(pixels)).round() as u64, of: u64::from(pixels) }
 }
 
 /// Shoots a source through all environments that its mask comes to; `seen` is told each environment,
 /// its shot and the mask.
-pub fn shoot_through(
-    problem: &Problem,
-    source: &Source,
-    mut seen: impl FnMut(u32, &Shot, &Mask),
-) {
+pub fn shoot_through(problem: &Problem, source: &Source, mut seen: impl FnMut(u32, &Shot, &Mask)) {
     let mut waiting = vec![(source.environment, Mask::all(problem.hemisphere.pixels()))];
     while let Some((number, mask)) = waiting.pop() {
         let environment = &problem.environments[number as usize];

@@ -15,7 +15,7 @@ use crate::rays::{self, Count};
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Right {
-    /// Rays of a closed scene that leave it or meet a back: at most so many.
+    /// Rays of a closed scene that leave it: at most so many.
     pub leaks: Option<u64>,
     /// Rays that end elsewhere than on the nearest of all polygons: at most so many.
     pub astray: Option<u64>,
@@ -26,8 +26,6 @@ pub struct Right {
     pub torn: Option<u64>,
     /// Patches that see a light and get nothing of it: at most so many.
     pub dark: Option<u64>,
-    /// Share of the light that falls elsewhere than exact form factors say: at most so much.
-    pub misdirected: Option<f64>,
     /// Share of the emitted energy that is unaccounted for: at most so much.
     pub closure: Option<f64>,
     /// Greatest radiosity that a patch gets from others, over the greatest emitted: at most so much.
@@ -148,7 +146,6 @@ fn measures(bench: &Bench) -> Vec<Finding> {
         right.owners.map(|bound| count("owners", bound, rays::owners(bench))),
         right.torn.map(|bound| count("torn", bound, rays::torn(bench, most, rays::our_polygon))),
         right.dark.map(|bound| count("dark", bound, direct::dark(bench))),
-        right.misdirected.map(|bound| number("misdirected", bound, Ok(direct::misdirected(bench)))),
         right.closure.map(|bound| number("closure", bound, light::closure(bench))),
         right.brightest.map(|bound| number("brightest", bound, light::brightest(bench))),
         right.exact.as_ref().map(exact),
@@ -185,5 +182,11 @@ fn whole(measure: &'static str, exactly: u64, ours: Result<u64, String>) -> Find
 /// Words, a part of which must be there.
 pub fn words(measure: &'static str, part: &str, ours: String) -> Finding {
     let holds = ours.contains(part);
-    Finding { measure, bound: Said::Words(part.to_owned()), ours: Said::Words(ours), naive: None, holds }
+    Finding {
+        measure,
+        bound: Said::Words(part.to_owned()),
+        ours: Said::Words(ours),
+        naive: None,
+        holds,
+    }
 }

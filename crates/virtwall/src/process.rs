@@ -5,6 +5,7 @@ use multicomputer::{Rank, Segment};
 use radiosity::Work;
 
 use crate::footprint::Footprint;
+use crate::observer::Observer;
 
 /// A process on a node, simulated or real. Messages are bytes: what is not encoded does not travel.
 #[expect(async_fn_in_trait, reason = "a process stays on its own thread")]
@@ -39,4 +40,7 @@ pub trait Process {
 
     /// The time since the program began.
     fn now(&self) -> Time;
+
+    /// Tell whoever observes this run, if somebody does.
+    fn observe(&self, _tell: impl FnOnce(&mut dyn Observer)) {}
 }

@@ -4,11 +4,15 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use desim::{Duration, Simulation, Time};
-use multicomputer::{Machine, Multicomputer, Network, Node, NodeMemory, Rank, Segment};
+use multicomputer::{
+    Machine, MachineObserver, Multicomputer, Network, Node, NodeMemory, Rank, Segment,
+};
 use radiosity::{Operation, Work};
 
 use crate::compute_node::compute_node;
 use crate::footprint::{Footprint, Thing};
+use crate::interpreter::Interpreter;
+use crate::observer::Observer;
 use crate::outcome::{NodeReport, Outcome};
 use crate::process::Process;
 use crate::run::{Run, RunError};
@@ -38,6 +42,7 @@ struct SimulatedProcess {
     node: Node<Vec<u8>>,
     prices: Rc<Prices>,
     memory: Option<Rc<NodeMemory>>,
+    interpreter: Option<Rc<RefCell<Interpreter>>>,
 }
 
 impl Process for SimulatedProcess {
@@ -66,6 +71,9 @@ impl Process for SimulatedProcess {
     }
 
     async fn send(&self, to: Rank, message: Vec<u8>) {
+        if let Some(interpreter) = &self.interpreter {
+            interpreter.borrow_mut().sends(self.rank(), &message);
+        }
         self.node.send(to, message.len() as u64, message).await;
     }
 
@@ -84,6 +92,12 @@ impl Process for SimulatedProcess {
     fn now(&self) -> Time {
         self.node.now()
     }
+
+    fn observe(&self, tell: impl FnOnce(&mut dyn Observer)) {
+        if let Some(interpreter) = &self.interpreter {
+            tell(&mut *interpreter.borrow_mut());
+        }
+    }
 }
 
 /// Run on a simulated machine.
@@ -97,6 +111,16 @@ pub fn simulate_over(
     machine: &Machine,
     network: Box<dyn Network>,
 ) -> Result<Outcome, RunError> {
+    simulate_observed(run, machine, network, None)
+}
+
+/// The same, with all that happens told to `observer`.
+pub fn simulate_observed(
+    run: &Run,
+    machine: &Machine,
+    network: Box<dyn Network>,
+    observer: Option<Rc<RefCell<dyn Observer>>>,
+) -> Result<Outcome, RunError> {
     let (nodes, collection) = run.prepare()?;
     let prices = Rc::new(Prices::of(machine)?);
     let memory = machine.node_memory.as_ref();
@@ -107,10 +131,17 @@ pub fn simulate_over(
     let simulation = Simulation::new();
     let handle = simulation.handle();
     let multicomputer = Multicomputer::with_network(&handle, machine, run.processors, network)?;
+    let interpreter = observer.map(|observer| {
+        let interpreter = Rc::new(RefCell::new(Interpreter::new(observer, run.processors + 1)));
+        let observer: Rc<RefCell<dyn MachineObserver<Vec<u8>>>> = interpreter.clone();
+        multicomputer.observe(&observer);
+        interpreter
+    });
     let process = |rank| SimulatedProcess {
         node: multicomputer.node(rank),
         prices: Rc::clone(&prices),
         memory: memory.clone(),
+        interpreter: interpreter.clone(),
     };
     let finished = Rc::new(RefCell::new(Vec::new()));
     for (rank, node) in nodes.into_iter().enumerate() {

@@ -42,8 +42,7 @@ fn read(bench: &Bench) -> Result<Vec<Face>, String> {
 impl Face {
     /// Whether a ray hits it: the plane, then left of every edge.
     fn is_hit(&self, origin: DVec3, direction: DVec3) -> bool {
-        let distance =
-            (self.corners[0] - origin).dot(self.normal) / direction.dot(self.normal);
+        let distance = (self.corners[0] - origin).dot(self.normal) / direction.dot(self.normal);
         let point = origin + direction * distance;
         let next = self.corners.iter().cycle().skip(1);
         let left = |(a, b): (&DVec3, &DVec3)| (*b - *a).cross(point - *a).dot(self.normal) >= -1e-9;

@@ -28,7 +28,7 @@ pub fn owners(bench: &Bench, interface: Interface) -> Count {
         for source in sources(bench, trial, MOST_RAYS) {
             for ray in rays(bench, &trial.problem, &source) {
                 let hit = nearest(&trial.problem, &source, &ray).unwrap_or(f64::INFINITY);
-                let march = March { problem: &trial.problem, source: &source, ray, hit, interface };
+                let march = March { problem: &trial.problem, ray, hit, interface };
                 let ends = march.ends(source.environment, None, 0);
                 count = count.and(Count { wrong: u64::from(ends != 1), of: 1 });
             }
@@ -39,7 +39,6 @@ pub fn owners(bench: &Bench, interface: Interface) -> Count {
 
 struct March<'a> {
     problem: &'a Problem,
-    source: &'a Source,
     ray: Ray,
     /// Distance of the nearest polygon.
     hit: f64,
@@ -53,7 +52,7 @@ impl March<'_> {
         let bounds = self.problem.space.grid.bounds(&here.block);
         let behind = |side: &Side| Some(*side) != from && self.passes(&bounds, *side);
         let through: Vec<Side> = Side::ALL.into_iter().filter(behind).collect();
-        let ends_here = u32::from(self.ends_in(&bounds));
+        let ends_here = u32::from(self.ends_in(environment, &bounds));
         if ends_here == 1 && self.interface != Interface::Unbounded || depth > 32 {
             return ends_here;
         }
@@ -69,12 +68,20 @@ impl March<'_> {
         ends
     }
 
-    /// Whether the ray's hit lies in an environment, by the same rule.
-    fn ends_in(&self, bounds: &Bounds) -> bool {
-        let point = self.ray.at(self.hit);
-        let reach = 1e-9 * self.source.centre.distance(point);
-        let (low, high) = (bounds.min - reach, bounds.max + reach);
-        point.cmpge(low).all() && point.cmple(high).all()
+    /// Whether the ray's hit lies in an environment, by the same rule at its interfaces.
+    fn ends_in(&self, environment: u32, bounds: &Bounds) -> bool {
+        let (here, point) =
+            (&self.problem.environments[environment as usize], self.ray.at(self.hit));
+        Side::ALL.into_iter().filter(|&side| here.has_neighbour(side)).all(|side| {
+            let at = point[side.axis];
+            let inside = match (side.upper, self.interface) {
+                (true, Interface::Open) => at < bounds.max[side.axis],
+                (true, _) => at <= bounds.max[side.axis],
+                (false, Interface::Open) => at > bounds.min[side.axis],
+                (false, _) => at >= bounds.min[side.axis],
+            };
+            inside
+        })
     }
 
     /// Whether the ray passes a side of an environment before its hit.

@@ -67,7 +67,8 @@ pub fn leaks(bench: &Bench, corners: Corners) -> Count {
         for ray in rays(bench, &trial.problem, &source) {
             let direction = ray.direction.as_vec3();
             let hit = |triangle: &&Triangle| {
-                triangle.polygon != source.polygon && distance(triangle, origin, direction).is_some()
+                triangle.polygon != source.polygon
+                    && distance(triangle, origin, direction).is_some()
             };
             let leaks = !triangles.iter().any(|triangle| hit(&triangle));
             count = count.and(Count { wrong: u64::from(leaks), of: 1 });
@@ -81,7 +82,8 @@ pub fn last(problem: &Problem, source: &Source, ray: &Ray) -> Option<u32> {
     let (origin, direction) = (ray.origin.as_vec3(), ray.direction.as_vec3());
     let mut nearest: Option<(f32, u32)> = None;
     for triangle in triangles(&problem.space.scene, Corners::Shared) {
-        let local = Triangle { corner: triangle.corner - problem.space.scene.origin.as_vec3(), ..triangle };
+        let local =
+            Triangle { corner: triangle.corner - problem.space.scene.origin.as_vec3(), ..triangle };
         if let Some(distance) = distance(&local, origin, direction)
             && local.polygon != source.polygon
             && nearest.is_none_or(|(other, _)| distance <= other)
