@@ -39,6 +39,9 @@ pub struct Case {
     /// those of every patch.
     #[serde(default)]
     pub rays: Option<u64>,
+    /// Whether rays come from lamps alone, in place of all patches.
+    #[serde(default)]
+    pub lamps_only: bool,
     /// Whether rays are aimed at the corners of cells and at corners and edges of polygons, in place of
     /// the hemisphere's.
     #[serde(default)]

@@ -1,16 +1,14 @@
 //! Light straight from the lamps: who gets it, and how much.
 
-use radiosity::{End, Ray, Rgb, Source};
+use radiosity::{End, Ray, Source};
 use virtwall::Problem;
 
 use crate::bench::{Bench, Trial};
-use crate::rays::{Count, follow, shoot_through, sources};
+use crate::rays::{Count, emits, follow, shoot_through, sources};
 
 /// Patches that emit, as sources, and those that do not.
 pub fn lamps_and_others(bench: &Bench, trial: &Trial) -> (Vec<Source>, Vec<Source>) {
-    let scene = &trial.problem.space.scene;
-    let emits =
-        |s: &Source| scene.material(&scene.polygons[s.polygon as usize]).emission != Rgb::ZERO;
+    let emits = |source: &Source| emits(&trial.problem, (source.environment, source.patch));
     sources(bench, trial, u64::MAX).into_iter().partition(emits)
 }
 

@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use serde_json::Value;
+
 use crate::case::Listed;
 use crate::rays::Count;
 use crate::right::{Finding, Said};
@@ -37,8 +39,7 @@ fn row(verdict: &Verdict) -> String {
         let cells: Vec<String> = verdict.findings.iter().map(of).collect();
         cells.into_iter().filter(|cell| !cell.is_empty()).collect::<Vec<_>>().join("<br>")
     };
-    let settings = case.naive_settings.iter().map(|(name, value)| format!("{name} {value}"));
-    let settings = settings.collect::<Vec<_>>().join(", ").replace('"', "");
+    let settings = settings(&Value::Object(case.naive_settings.clone()));
     let how = case.naive.map_or(settings, |twin| twin.words().to_owned());
     let naive = each(&|finding| {
         finding.naive.as_ref().map_or(String::new(), |said| told(finding.measure, said))
@@ -58,6 +59,16 @@ fn row(verdict: &Verdict) -> String {
     ];
     let cells = cells.map(|cell| cell.replace('|', "\\|").replace('\n', " "));
     format!("| {} |\n", cells.join(" | "))
+}
+
+/// Fields and their values, those of objects one by one.
+fn settings(fields: &Value) -> String {
+    let Value::Object(object) = fields else { return fields.to_string().replace('"', "") };
+    let field = |(name, value): (&String, &Value)| match value {
+        Value::Object(_) => settings(value),
+        value => format!("{} {}", name.replace('_', " "), settings(value)),
+    };
+    object.iter().map(field).collect::<Vec<_>>().join(", ")
 }
 
 /// What was found, in words.
@@ -100,8 +111,14 @@ fn bound(finding: &Finding) -> String {
     }
 }
 
+/// Less than this is rounding, and told as less: it says nothing, and another compiler's may differ.
+const ROUNDING: f64 = 1e-12;
+
 /// Two significant digits.
 fn short(number: f64) -> String {
+    if number < ROUNDING && number > 0.0 {
+        return format!("< {ROUNDING:e}");
+    }
     if number == 0.0 || (1e-2..1e4).contains(&number) {
         let text = format!("{number:.3}");
         return text.trim_end_matches('0').trim_end_matches('.').to_owned();
@@ -143,14 +160,15 @@ pub fn csv(verdicts: &[Verdict]) -> Result<String, csv::Error> {
 fn raw(said: &Said) -> String {
     match said {
         Said::Count(Count { wrong, of }) => format!("{wrong} of {of}"),
-        Said::Number(number) => format!("{number:.3e}"),
+        Said::Number(number) if *number > 0.0 && *number < ROUNDING => format!("<{ROUNDING:e}"),
+        Said::Number(number) => format!("{number:.2e}"),
         Said::Whole(number) => number.to_string(),
         Said::Words(words) => words.clone(),
     }
 }
 
-/// Least share that the drawing tells from none.
-const LEAST: f64 = 1e-17;
+/// Least share that the drawing tells from none: a little less than rounding.
+const LEAST: f64 = 1e-13;
 const WIDTH: f64 = 900.0;
 const LEFT: f64 = 330.0;
 const STEP: f64 = 18.0;
@@ -170,7 +188,7 @@ pub fn svg(verdicts: &[Verdict]) -> String {
          <rect width=\"{WIDTH}\" height=\"{height}\" fill=\"white\"/>\n"
     );
     let foot = height - 1.6 * STEP;
-    for power in (-16..=2).step_by(2) {
+    for power in (-12..=2).step_by(2) {
         let x = across(10_f64.powi(power));
         let _ = write!(
             svg,

@@ -32,10 +32,17 @@ pub fn sources(bench: &Bench, trial: &Trial, most: u64) -> Vec<Source> {
         .zip(&problem.environments)
         .flat_map(|(e, environment)| (0..environment.patches.len() as u32).map(move |p| (e, p)))
         .filter(|&(e, p)| problem.environments[e as usize].patches[p as usize].area > 0.0)
+        .filter(|&at| !bench.case.lamps_only || emits(problem, at))
         .collect();
-    let wanted = rays.div_ceil(u64::from(problem.hemisphere.pixels())).clamp(1, all.len() as u64);
+    let wanted = rays.div_ceil(u64::from(problem.hemisphere.pixels())).min(all.len() as u64);
     let chosen = (0..wanted as usize).map(|i| all[i * all.len() / wanted as usize]);
     chosen.map(|(e, p)| source(problem, e, p)).collect()
+}
+
+/// Whether a patch, by environment and number, emits.
+pub fn emits(problem: &Problem, (environment, patch): (u32, u32)) -> bool {
+    let environment = &problem.environments[environment as usize];
+    environment.emitted_power(&problem.space, patch) != Rgb::ZERO
 }
 
 /// A patch as a source of one watt.

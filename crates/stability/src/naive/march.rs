@@ -1,6 +1,6 @@
 //! Rays handed from environment to environment without a rule for those that meet an edge.
 
-use radiosity::{Bounds, Ray, Side, Source};
+use radiosity::{Bounds, Ray, Side};
 use virtwall::Problem;
 
 use crate::bench::Bench;
