@@ -8,6 +8,7 @@ use multicomputer::Machine;
 use serde_json::Value;
 use virtwall::Problem;
 
+use crate::answer::Stored;
 use crate::columns::Also;
 use crate::comparison::Comparison;
 use crate::digest::FileDigest;
@@ -34,6 +35,8 @@ pub struct Plan {
     pub problems: Vec<Prepared>,
     /// Machines.
     pub machines: Vec<Equipment>,
+    /// Stored references.
+    pub references: Vec<Stored>,
     /// Published figures.
     pub comparison: Comparison,
     /// What to draw.
@@ -52,6 +55,9 @@ impl Plan {
             network: self.runs.iter().any(|run| network::tells(machine(run), run.point.network)),
             memory: self.runs.iter().any(|run| machine(run).node_memory.is_some()),
             message_layer: self.runs.iter().any(|run| message_layer::tells(machine(run))),
+            errors: self.runs.iter().any(|run| run.point.reference.is_some()),
+            display: self.runs.iter().any(|run| machine(run).display.is_some()),
+            start_up: self.runs.iter().any(|run| machine(run).start_up.is_some()),
         }
     }
 }
@@ -66,6 +72,8 @@ pub struct Run {
     pub problem: usize,
     /// Index into [`Plan::machines`].
     pub machine: usize,
+    /// Index into [`Plan::references`]; none where a run has no reference, or a dense one.
+    pub stored: Option<usize>,
 }
 
 /// A scene, meshed and cut.
@@ -76,6 +84,8 @@ pub struct Prepared {
     pub problem: Arc<Problem>,
     /// The scene's files.
     pub digests: Vec<FileDigest>,
+    /// Bytes of its geometry and materials.
+    pub scene_bytes: u64,
     /// CPU seconds that reading, cleaning, cutting and meshing took.
     pub set_up_s: f64,
 }

@@ -28,7 +28,7 @@ impl Trials {
     /// # Errors
     /// The first fault met.
     pub fn of(document: &Document, path: &Path) -> Result<Trials, Fault> {
-        Ok(Trials { plan: Plan::of(document, path, 1)?, file: document.file.clone() })
+        Ok(Trials { plan: Plan::of(path, document.clone(), &[], 1)?, file: document.file.clone() })
     }
 
     /// How many runs there are: the product of all lists.

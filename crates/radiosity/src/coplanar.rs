@@ -1,6 +1,5 @@
 //! Polygons that lie in one plane get one plane.
 
-
 use crate::scene::{Plane, Polygon};
 
 /// What two unit normals may differ by and still be one.

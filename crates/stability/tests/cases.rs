@@ -22,6 +22,7 @@ fn every_case_is_right() {
     for verdict in &verdicts {
         println!("{} {:?}", verdict.name, verdict.findings);
     }
-    let wrong: Vec<_> = verdicts.iter().filter(|v| !v.holds()).map(|v| (&v.name, &v.findings)).collect();
+    let wrong: Vec<_> =
+        verdicts.iter().filter(|v| !v.holds()).map(|v| (&v.name, &v.findings)).collect();
     assert!(wrong.is_empty(), "{wrong:#?}");
 }

@@ -5,14 +5,15 @@ use std::rc::Rc;
 
 use desim::{Duration, Simulation, Time};
 use multicomputer::{
-    Machine, MachineObserver, Multicomputer, Network, Node, NodeMemory, Rank, Segment,
+    Machine, MachineObserver, Multicomputer, Network, Node, NodeMemory, Rank, Segment, Socket,
 };
 use radiosity::{Operation, Work};
 
 use crate::compute_node::compute_node;
+use crate::display::DisplayReport;
 use crate::footprint::{Footprint, Thing};
 use crate::interpreter::Interpreter;
-use crate::observer::Observer;
+use crate::observer::{Observer, SharedObserver};
 use crate::outcome::{NodeReport, Outcome};
 use crate::process::Process;
 use crate::run::{Run, RunError};
@@ -43,6 +44,8 @@ struct SimulatedProcess {
     prices: Rc<Prices>,
     memory: Option<Rc<NodeMemory>>,
     interpreter: Option<Rc<RefCell<Interpreter>>>,
+    /// To the display; the service node's.
+    socket: Option<Rc<Socket<Vec<u8>>>>,
 }
 
 impl Process for SimulatedProcess {
@@ -89,6 +92,21 @@ impl Process for SimulatedProcess {
         self.node.wait_until(time).await
     }
 
+    fn queue_for_display(&self, update: &[u8]) {
+        self.socket.iter().for_each(|socket| socket.queue(update.len() as u64));
+    }
+
+    fn wants_updates(&self) -> bool {
+        self.socket.as_ref().is_some_and(|socket| socket.wants_more())
+    }
+
+    async fn socket_send(&self) -> bool {
+        match &self.socket {
+            Some(socket) => socket.send().await,
+            None => false,
+        }
+    }
+
     fn now(&self) -> Time {
         self.node.now()
     }
@@ -119,7 +137,7 @@ pub fn simulate_observed(
     run: &Run,
     machine: &Machine,
     network: Box<dyn Network>,
-    observer: Option<Rc<RefCell<dyn Observer>>>,
+    observer: Option<SharedObserver>,
 ) -> Result<Outcome, RunError> {
     let (nodes, collection) = run.prepare()?;
     let prices = Rc::new(Prices::of(machine)?);
@@ -142,6 +160,7 @@ pub fn simulate_observed(
         prices: Rc::clone(&prices),
         memory: memory.clone(),
         interpreter: interpreter.clone(),
+        socket: None,
     };
     let finished = Rc::new(RefCell::new(Vec::new()));
     for (rank, node) in nodes.into_iter().enumerate() {
@@ -152,7 +171,10 @@ pub fn simulate_observed(
             finished.borrow_mut().push((process.rank(), process.now(), node));
         });
     }
-    let service = process(run.processors);
+    let mut service = process(run.processors);
+    let display = machine.display.as_ref();
+    let socket = display.map(|display| Rc::new(Socket::new(display, service.node.clone())));
+    service.socket = socket.clone();
     handle.spawn("service node", async move {
         service_node(&service, collection).await;
         service.node.finish();
@@ -162,16 +184,19 @@ pub fn simulate_observed(
     finished.sort_unstable_by_key(|(rank, ..)| *rank);
     let time = finished.iter().map(|(_, time, _)| *time).max().unwrap_or(Time::ZERO);
     let nodes: Vec<_> = finished.into_iter().map(|(_, _, node)| node).collect();
-    let reports =
-        multicomputer.accounts().into_iter().take(nodes.len()).map(|account| NodeReport {
-            compute: account.compute,
-            overhead: account.overhead(),
-            paging: account.paging,
-            memory_high_water: account.memory_high_water,
-            idle: account.idle,
-            layer: account.layer,
-            ..NodeReport::default()
-        });
+    let accounts = multicomputer.accounts();
+    let reports = accounts.iter().take(nodes.len()).map(|account| NodeReport {
+        compute: account.compute,
+        overhead: account.overhead(),
+        paging: account.paging,
+        memory_high_water: account.memory_high_water,
+        idle: account.idle,
+        layer: account.layer,
+        ..NodeReport::default()
+    });
     let reports = reports.collect();
-    Ok(Outcome::of(time, &nodes, reports))
+    let outcome = Outcome::of(time, &nodes, reports);
+    let sent = outcome.counts.update_messages;
+    let display = socket.map(|s| DisplayReport::of((time, sent), &accounts, &s.account()));
+    Ok(Outcome { display, ..outcome })
 }
