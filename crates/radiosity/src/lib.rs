@@ -8,6 +8,7 @@ mod camera;
 mod canvas;
 mod clean;
 mod clip;
+mod coplanar;
 mod dimmed;
 mod entry;
 mod environment;
