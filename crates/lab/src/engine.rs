@@ -93,6 +93,7 @@ pub fn problem(scene: &radiosity::Scene, settings: &Settings) -> Result<Arc<Prob
     };
     let hemisphere = Hemisphere::new(kind, settings.pixels, settings.rotated)
         .map_err(|error| ("hemisphere.pixels", error.to_string()))?;
+    let hemisphere = if settings.by_place { hemisphere.by_place() } else { hemisphere };
     let (reflector, emitter) = (settings.patch_size, settings.emitter_patch_size);
     let options = ProblemOptions {
         patch_size: PatchSize { reflector, emitter },
@@ -240,6 +241,15 @@ pub fn solved(problem: &Problem, unshot: f64) -> (Light, f64) {
     (vec![radiosity], if emitted > 0.0 { left / emitted } else { 0.0 })
 }
 
+/// Runs a point's run to the end on the simulated `machine`: all that it found.
+///
+/// # Errors
+/// Why the run did not end.
+pub fn outcome(run: &Run, point: &Experiment, machine: &Machine) -> Result<Outcome, String> {
+    let found = network::simulate(run, &changed(machine, point), point, None);
+    found.map(|(outcome, _)| outcome).map_err(|error| error.to_string())
+}
+
 /// The outcome's figures; times only if they are virtual.
 fn figures(problem: &Problem, outcome: &Outcome, virtual_time: bool) -> Figures {
     let energy = &outcome.energy;
@@ -278,6 +288,12 @@ fn figures(problem: &Problem, outcome: &Outcome, virtual_time: bool) -> Figures 
         start_up: None,
         work: outcome.work.counts().map(|(op, n)| (op.name().to_owned(), n)).collect(),
     }
+}
+
+/// The processor of each environment at one point of an experiment.
+pub fn owners(point: &Experiment, problem: &Problem) -> Vec<usize> {
+    let environments = problem.environments.len() as u32;
+    rules(point).mapping.owners(environments, point.processors as usize)
 }
 
 /// The rules that a point of an experiment sets.

@@ -189,6 +189,10 @@ pub struct Hemisphere {
     /// Whether the directions are turned about the normal by an angle of each source's own, so
     /// that no ray runs along a plane by habit.
     pub rotated: bool,
+    /// Whether the directions lie over each source by its place in the scene, and so turn with the
+    /// scene, rather than by the axes: turned by 90° a scene then has the same light to the last digits.
+    #[serde(skip_serializing_if = "is_false")]
+    pub by_place: bool,
 }
 
 impl Default for Hemisphere {
@@ -198,6 +202,7 @@ impl Default for Hemisphere {
             pixels: 30_976,
             pixels_a_bit: 1,
             rotated: true,
+            by_place: false,
         }
     }
 }
@@ -321,7 +326,7 @@ impl Plot {
 }
 
 /// A field that is false by default is not told.
-fn is_false(value: &bool) -> bool {
+pub fn is_false(value: &bool) -> bool {
     !value
 }
 

@@ -45,6 +45,7 @@ mod program;
 mod quantity;
 mod queue;
 mod ray_bench;
+mod reels;
 mod report;
 mod results;
 mod runner;
@@ -62,8 +63,11 @@ mod summary;
 mod sweep;
 mod table;
 mod traces;
+mod trials;
+mod viewing;
 
 pub use check::check;
+pub use document::Document;
 pub use engine::{Light, On};
 pub use experiment::{Plot, experiment_schema};
 pub use fault::Fault;
@@ -73,6 +77,7 @@ pub use host_memory::half_of_free_memory;
 pub use networks::text as networks_text;
 pub use open_machine::OpenMachine;
 pub use open_scene::OpenScene;
+pub use place::Place;
 pub use plan::Plan;
 pub use ray_bench::RayBench;
 pub use results::{Results, write_host_times};
@@ -82,6 +87,8 @@ pub use shot_files::ShotFiles;
 pub use stage::{Stage, StagedRun, Which};
 pub use table::Table;
 pub use traces::Traces;
+pub use trials::Trials;
+pub use viewing::Viewing;
 
 /// Draws a plot of a table as the text of an SVG file; a column `paper_<y>` or
 /// `published_<y>` holds published points.

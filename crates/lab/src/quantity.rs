@@ -103,7 +103,7 @@ impl Kind for RateKind {
     const NAME: &'static str = "a bandwidth";
     const DIMENSION: Dimension = Dimension::Bandwidth;
     const EXAMPLE: &'static str = "10 Mbit/s";
-    const RANGE: &'static str = "from 1 B/s to 1 TB/s";
+    const RANGE: &'static str = "from 1 B/s to 1000 GB/s";
     fn allows(value: f64) -> bool {
         (1.0..=1e12).contains(&value)
     }

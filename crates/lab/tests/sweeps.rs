@@ -10,7 +10,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use common::{Project, SWEEP};
-use lab::{Event, On, Options, Plan, Results, carry_out};
+use lab::{Event, On, Options, Plan, Results, Viewing, carry_out};
 
 fn options(threads: usize) -> Options {
     Options {
@@ -20,6 +20,7 @@ fn options(threads: usize) -> Options {
         memory: 1 << 30,
         shot_files: None,
         traces: None,
+        viewing: Viewing::None,
     }
 }
 

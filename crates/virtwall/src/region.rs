@@ -166,6 +166,7 @@ impl Region {
             source: Source { centre: part.centre, power: source.power * part.share, ..source },
             mask: self.problem.clear_mask(),
             form_factor: 1.0,
+            through: None,
         };
         geometry.parts(space, patch, along).into_iter().map(parcel).collect()
     }

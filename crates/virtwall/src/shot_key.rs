@@ -19,7 +19,8 @@ impl ShotKey {
     /// Bytes of a key in a file.
     pub const BYTES: usize = 28;
 
-    pub(crate) fn of(parcel: &Parcel) -> ShotKey {
+    /// The key of a source's shot.
+    pub fn of(parcel: &Parcel) -> ShotKey {
         let Parcel { environment, source, mask, .. } = parcel;
         ShotKey {
             environment: *environment,
