@@ -156,9 +156,6 @@ impl ComputeNode {
             }
             (None, None) => None,
         };
-        if let Some(source) = &choice {
-            process.observe(|to| to.selected(process.now(), process.rank(), source));
-        }
         self.foresee_local();
         choice
     }
@@ -182,6 +179,7 @@ impl ComputeNode {
 
     /// §4.2.3: cast the rays of the pixels that are still true, and update radiosities.
     async fn compute_illumination(&mut self, process: &impl Process, source: &Parcel) -> Shot {
+        process.observe(|to| to.selected(process.now(), process.rank(), source));
         process.touch([footprint::PROGRAM, footprint::environment(source.environment)]).await;
         let Shared { problem, kept, on_shot, .. } = &*self.shared;
         let kernel = || {
