@@ -97,4 +97,8 @@ impl Observer for Interpreter {
     fn queue(&mut self, now: Time, rank: Rank, length: usize) {
         self.observer.borrow_mut().queue(now, rank, length);
     }
+
+    fn memory(&mut self, now: Time, rank: Rank, bytes: u64) {
+        self.observer.borrow_mut().memory(now, rank, bytes);
+    }
 }
