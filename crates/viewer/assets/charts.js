@@ -3,6 +3,7 @@
 const FRAME = { width: 560, height: 250, left: 54, right: 78, top: 12, bottom: 34 };
 const ENERGY = [
   ["absorbed", "absorbed"], ["transit", "in transit"], ["unshot", "unshot"], ["escaped", "escaped"],
+  ["medium", "absorbed by media"],
 ];
 const QUALITY_FLOOR = 1e-3;
 
@@ -37,7 +38,7 @@ class Charts {
     const { run } = this.state;
     const samples = this.course(run);
     const first = samples[0];
-    const whole = first.absorbed + first.unshot + first.transit + first.escaped || 1;
+    const whole = first.unshot || 1;
     const x = scale(0, run.end, FRAME.left, FRAME.width - FRAME.right);
     const y = scale(0, 1, FRAME.height - FRAME.bottom, FRAME.top);
     const parts = axes(x, y, [0, 0.25, 0.5, 0.75, 1].map((v) => [v, `${100 * v} %`]), run.end);
@@ -104,8 +105,10 @@ class Charts {
     const { energy, emitted } = this.state.light;
     const share = (value, digits) => `${Math.abs((100 * value) / (emitted || 1)).toFixed(digits)} %`;
     const sum = ENERGY.reduce((all, [key]) => all + energy[key], 0);
+    const parts = ENERGY.filter(([key]) => key !== "medium" || energy.medium > 0);
+    const shown = parts.map(([key, name]) => `${name} ${share(energy[key], 1)}`);
     byId("balance").textContent =
-      `${ENERGY.map(([key, name]) => `${name} ${share(energy[key], 1)}`).join(", ")}; together ${share(sum, 4)} of what is emitted.`;
+      `${shown.join(", ")}; together ${share(sum, 4)} of what is emitted.`;
   }
 
   click(event) {

@@ -14,6 +14,8 @@ mod page;
 mod reel;
 mod run;
 mod scene;
+#[cfg(test)]
+mod tests;
 
 pub use film::Film;
 pub use page::{MARKUP, Recorded, STYLE, program};
