@@ -1,5 +1,6 @@
 // Energy over time, and light's distance from the last instant, as SVG.
 
+/** Of a chart, in pixels; as wide as there is room. */
 const FRAME = { width: 560, height: 250, left: 54, right: 78, top: 12, bottom: 34 };
 const ENERGY = [
   ["absorbed", "absorbed"], ["transit", "in transit"], ["unshot", "unshot"], ["escaped", "escaped"],
@@ -15,6 +16,9 @@ class Charts {
       if (names.has("time")) this.moveCursors();
       if (names.has("light")) this.tellBalance();
     });
+    new ResizeObserver(() => {
+      if (state.run && byId("energy").clientWidth !== FRAME.width) this.redraw();
+    }).observe(byId("energy").parentElement);
     for (const id of ["energy", "quality"]) byId(id).addEventListener("click", (event) => this.click(event));
   }
 
@@ -25,11 +29,12 @@ class Charts {
   }
 
   redraw() {
+    FRAME.width = Math.max(280, byId("energy").clientWidth);
     this.drawEnergy();
     const { run } = this.state;
     this.drawQuality([run]);
-    // The other runs of the scene are read when the page has nothing else to do.
-    this.viewer.runsOf(run.scene).then((runs) => {
+    // Its siblings are read when the page has nothing else to do.
+    this.viewer.siblings(run).then((runs) => {
       if (this.state.run === run) this.drawQuality(runs);
     });
   }

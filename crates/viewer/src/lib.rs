@@ -8,6 +8,7 @@ mod answers;
 mod budget;
 mod columns;
 mod critical;
+mod data;
 mod film;
 mod ledger;
 mod page;

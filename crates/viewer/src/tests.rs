@@ -149,7 +149,7 @@ fn what_has_no_room_is_left_out_and_told() {
         [1, 2, PROCESSORS].map(|n| data.contains(&format!("\"label\":\"room, {n} processors\"")))
     };
     let whole = Recorded::of(&reels, usize::MAX).data.len();
-    let mut shown: Vec<[bool; 3]> = (0..60).rev().map(|i| runs(i * whole / 15)).collect();
+    let mut shown: Vec<[bool; 3]> = (0..25).rev().map(|i| runs(i * whole / 6)).collect();
     shown.dedup();
     let [all, ends] = [[true; 3], [true, false, true]];
     assert_eq!(shown, [all, ends, [true, false, false], [false; 3]]);
