@@ -108,6 +108,10 @@ pub struct Experiment {
     /// relative to the root mean square of what is reflected.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reference: Option<String>,
+    /// Whether to take each run's error apart, by some more runs: columns error_mask, error_stopping,
+    /// error_directions, error_sampling and error_mesh. It needs a "reference".
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub error_causes: bool,
     /// Which source a node shoots next. Choice C4: §3.2 says the most unshot energy, §4.2.2 the
     /// greatest delta-radiosity.
     #[serde(default)]

@@ -5,6 +5,7 @@
 //! ([`Results`]). Knows nothing of how a kernel or a link works: all of that is behind `engine`.
 
 mod answer;
+mod causes;
 mod chart;
 mod check;
 mod columns;

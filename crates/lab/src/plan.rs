@@ -55,6 +55,7 @@ impl Plan {
             network: self.runs.iter().any(|run| network::tells(machine(run), run.point.network)),
             memory: self.runs.iter().any(|run| machine(run).node_memory.is_some()),
             message_layer: self.runs.iter().any(|run| message_layer::tells(machine(run))),
+            causes: self.runs.iter().any(|run| run.point.error_causes),
             errors: self.runs.iter().any(|run| run.point.reference.is_some()),
             display: self.runs.iter().any(|run| machine(run).display.is_some()),
             start_up: self.runs.iter().any(|run| machine(run).start_up.is_some()),

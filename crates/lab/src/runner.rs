@@ -10,6 +10,7 @@ use radiosity::Rgb;
 use virtwall::{Helpers, KeptShots, Memory, Recording, SharedObserver, ShotCounts};
 
 use crate::answer::DenseAnswers;
+use crate::causes::Explained;
 use crate::engine::{self, On};
 use crate::errors::{ErrorFigures, Radiosity, Yardstick};
 use crate::figures::Figures;
@@ -149,9 +150,8 @@ impl Desk<'_> {
                 set_up_s: self.plan.problems[task.problem].set_up_s,
                 clock_s: clock.seconds(),
             };
-            let ending = ended.map(|(figures, radiosity)| Figures {
-                errors: self.errors(&task, &radiosity),
-                ..figures
+            let ending = ended.and_then(|(figures, radiosity)| {
+                Ok(Figures { errors: self.errors(&task, &radiosity)?, ..figures })
             });
             let run = task.run;
             let stored = match &ending {
@@ -184,15 +184,25 @@ impl Desk<'_> {
     }
 
     /// How far a run is from the answer, if there is one; no part of what the run took of the host.
-    fn errors(&self, task: &Task, radiosity: &Radiosity) -> Option<ErrorFigures> {
+    fn errors(&self, task: &Task, radiosity: &Radiosity) -> Result<Option<ErrorFigures>, String> {
         let run = &self.plan.runs[task.run];
         let problem = &self.plan.problems[run.problem].problem;
-        run.point.reference.as_ref()?;
+        if run.point.reference.is_none() {
+            return Ok(None);
+        }
         let answer = match run.stored {
             Some(stored) => Arc::clone(&self.plan.references[stored].answer),
             None => self.dense.of(problem),
         };
-        Some(Yardstick::new(&answer, problem).errors(radiosity))
+        let yardstick = Yardstick::new(&answer, problem);
+        let mut errors = yardstick.errors(radiosity);
+        if run.point.error_causes {
+            let machine = &self.plan.machines[run.machine].machine;
+            let run = Explained { point: &run.point, problem, machine, kept: &task.kept };
+            let dense = self.dense.of(problem);
+            errors.causes = Some(run.causes(radiosity, &yardstick, &dense)?);
+        }
+        Ok(Some(errors))
     }
 
     /// Carries a run out, and writes its trace if there is to be one.
