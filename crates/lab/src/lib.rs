@@ -7,6 +7,7 @@
 mod answer;
 mod causes;
 mod chart;
+mod cheapest;
 mod check;
 mod columns;
 mod comparison;
@@ -36,6 +37,7 @@ mod networks;
 mod node_memory;
 mod open_machine;
 mod open_scene;
+mod pareto;
 mod place;
 mod plan;
 mod planner;

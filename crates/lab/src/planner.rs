@@ -342,6 +342,10 @@ fn check_plots(plan: &Plan, document: &Document) -> Result<(), Fault> {
                 return Err(document.fault(&place.key(field), message));
             }
         }
+        if let Some(column) = plot.mark.keys().find(|&column| !known.contains(column)) {
+            let message = unknown("column", column, &known);
+            return Err(document.fault(&place.key("mark").key(column), message));
+        }
         let stem = plot.stem();
         if !is_plain(&stem) {
             let message = format!("\"{stem}\" names a file; expected {PLAIN}");
