@@ -5,7 +5,9 @@
 //! ([`Results`]). Knows nothing of how a kernel or a link works: all of that is behind `engine`.
 
 mod answer;
+mod causes;
 mod chart;
+mod cheapest;
 mod check;
 mod columns;
 mod comparison;
@@ -37,6 +39,7 @@ mod networks;
 mod node_memory;
 mod open_machine;
 mod open_scene;
+mod pareto;
 mod place;
 mod plan;
 mod planner;
