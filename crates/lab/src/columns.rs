@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 
+use crate::causes;
 use crate::display;
 use crate::engine;
 use crate::errors;
@@ -85,6 +86,8 @@ pub struct Also {
     pub media: bool,
     /// Those of errors.
     pub errors: bool,
+    /// Those of what makes the errors up.
+    pub causes: bool,
     /// Those of the display.
     pub display: bool,
     /// Those of the start-up.
@@ -101,7 +104,8 @@ impl Also {
         let display = display::COLUMNS.into_iter().filter(move |_| self.display);
         let start_up = start_up::COLUMNS.into_iter().filter(move |_| self.start_up);
         let machine = network.chain(memory).chain(layer).chain(display).chain(start_up);
-        machine.chain(media).chain(errors)
+        let causes = causes::COLUMNS.into_iter().filter(move |_| self.causes);
+        machine.chain(media).chain(errors).chain(causes)
     }
 }
 

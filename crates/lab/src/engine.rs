@@ -93,6 +93,7 @@ pub fn problem(scene: &radiosity::Scene, settings: &Settings) -> Result<Arc<Prob
     };
     let hemisphere = Hemisphere::new(kind, settings.pixels, settings.rotated)
         .map_err(|error| ("hemisphere.pixels", error.to_string()))?;
+    let hemisphere = if settings.by_place { hemisphere.by_place() } else { hemisphere };
     let (reflector, emitter) = (settings.patch_size, settings.emitter_patch_size);
     let options = ProblemOptions {
         patch_size: PatchSize { reflector, emitter },
@@ -238,6 +239,15 @@ pub fn solved(problem: &Problem, unshot: f64) -> (Light, f64) {
     let emitted = problem.emitted_power().element_sum();
     let left = light.unshot_power().element_sum();
     (vec![radiosity], if emitted > 0.0 { left / emitted } else { 0.0 })
+}
+
+/// Runs a point's run to the end on the simulated `machine`: all that it found.
+///
+/// # Errors
+/// Why the run did not end.
+pub fn outcome(run: &Run, point: &Experiment, machine: &Machine) -> Result<Outcome, String> {
+    let found = network::simulate(run, &changed(machine, point), point, None);
+    found.map(|(outcome, _)| outcome).map_err(|error| error.to_string())
 }
 
 /// The outcome's figures; times only if they are virtual.

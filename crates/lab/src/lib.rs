@@ -5,7 +5,9 @@
 //! ([`Results`]). Knows nothing of how a kernel or a link works: all of that is behind `engine`.
 
 mod answer;
+mod causes;
 mod chart;
+mod cheapest;
 mod check;
 mod columns;
 mod comparison;
@@ -37,6 +39,7 @@ mod networks;
 mod node_memory;
 mod open_machine;
 mod open_scene;
+mod pareto;
 mod place;
 mod plan;
 mod planner;
@@ -63,9 +66,11 @@ mod summary;
 mod sweep;
 mod table;
 mod traces;
+mod trials;
 mod viewing;
 
 pub use check::check;
+pub use document::Document;
 pub use engine::{Light, On};
 pub use experiment::{Plot, experiment_schema};
 pub use fault::Fault;
@@ -75,6 +80,7 @@ pub use host_memory::half_of_free_memory;
 pub use networks::text as networks_text;
 pub use open_machine::OpenMachine;
 pub use open_scene::OpenScene;
+pub use place::Place;
 pub use plan::Plan;
 pub use ray_bench::RayBench;
 pub use results::{Results, write_host_times};
@@ -84,6 +90,7 @@ pub use shot_files::ShotFiles;
 pub use stage::{Stage, StagedRun, Which};
 pub use table::Table;
 pub use traces::Traces;
+pub use trials::Trials;
 pub use viewing::Viewing;
 
 /// Draws a plot of a table as the text of an SVG file; a column `paper_<y>` or

@@ -56,6 +56,7 @@ impl Plan {
             memory: self.runs.iter().any(|run| machine(run).node_memory.is_some()),
             media: self.problems.iter().any(|p| !p.problem.space.scene.media.is_empty()),
             message_layer: self.runs.iter().any(|run| message_layer::tells(machine(run))),
+            causes: self.runs.iter().any(|run| run.point.error_causes),
             errors: self.runs.iter().any(|run| run.point.reference.is_some()),
             display: self.runs.iter().any(|run| machine(run).display.is_some()),
             start_up: self.runs.iter().any(|run| machine(run).start_up.is_some()),

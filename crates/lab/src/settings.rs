@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::cut::{automatic_cells, automatic_cut};
-use crate::experiment::{Directions, Experiment};
+use crate::experiment::{Directions, Experiment, is_false};
 use crate::interfaces::WallMesh;
 use crate::quantity::Triple;
 use crate::scene::Scene;
@@ -44,6 +44,9 @@ pub struct Settings {
     /// Bits of an integer of a mask, if other than usual.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mask_bits: Option<u32>,
+    /// Whether they lie by its place.
+    #[serde(skip_serializing_if = "is_false")]
+    pub by_place: bool,
 }
 
 impl Settings {
@@ -76,6 +79,7 @@ impl Settings {
             rotated: point.hemisphere.rotated,
             virtual_walls: WallMesh::of(point)?,
             mask_bits: point.mask_bits,
+            by_place: point.hemisphere.by_place,
         })
     }
 }

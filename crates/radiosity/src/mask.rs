@@ -116,6 +116,9 @@ impl Mask {
     /// count as true; where no bit would be true, the first of those with most true pixels is. So the
     /// mask has about as many true pixels as before.
     pub fn coarsened(&self, pixels_a_bit: u32) -> Mask {
+        if pixels_a_bit == 1 {
+            return self.clone();
+        }
         let mut coarse = Mask { pixels_a_bit, ..Mask::none(self.pixels) };
         let all = Mask::all(self.pixels);
         let mut fullest = (0, 0, 0);

@@ -51,10 +51,14 @@ impl Shared {
     /// Have a shot that this run will ask for cast ahead by threads that have nothing else to do, and
     /// those that it leads to as well. Where its rays end does not depend on what happens meanwhile.
     fn foresee(self: &Arc<Self>, parcel: &Parcel) {
-        if !self.kept.foresee(parcel) {
+        if !self.kept.helpers().want_jobs() {
             return;
         }
-        let (shared, parcel) = (Arc::clone(self), parcel.clone());
+        let parcel = self.problem.arriving(parcel.clone());
+        if !self.kept.foresee(&parcel) {
+            return;
+        }
+        let shared = Arc::clone(self);
         self.kept.helpers().add(Box::new(move || {
             let Shared { problem, kept, .. } = &*shared;
             kept.cast_ahead(problem, &parcel, |shot| {
@@ -158,9 +162,6 @@ impl ComputeNode {
             }
             (None, None) => None,
         };
-        if let Some(source) = choice.as_ref().and_then(|source| source.first()) {
-            process.observe(|to| to.selected(process.now(), process.rank(), source));
-        }
         self.foresee_local();
         choice
     }
@@ -188,6 +189,9 @@ impl ComputeNode {
         process: &impl Process,
         source: &[Parcel],
     ) -> Vec<Shot> {
+        for part in source {
+            process.observe(|to| to.selected(process.now(), process.rank(), part));
+        }
         let environment = source.first().map(|part| footprint::environment(part.environment));
         process.touch([footprint::PROGRAM].into_iter().chain(environment)).await;
         let Shared { problem, kept, on_shot, .. } = &*self.shared;
@@ -314,6 +318,8 @@ impl ComputeNode {
 
     fn enqueue(&mut self, process: &impl Process, source: Vec<Parcel>) {
         let footprint = Footprint::of_source(&source);
+        let problem = &self.shared.problem;
+        let source = source.into_iter().map(|part| problem.arriving(part)).collect();
         match self.queue.push(source, self.shared.rules.merge_masks) {
             Some(turn) => process.keep(footprint::queued(turn), || footprint),
             // Taken up by another parcel, and with it when that is shot.

@@ -1,7 +1,7 @@
 //! The wire format of everything that processes send.
 
 use radiosity::glam::DVec3;
-use radiosity::{DepthBits, Mask, Source};
+use radiosity::{DepthBits, Mask, Side, Source};
 use thiserror::Error;
 
 /// A message between processes.
@@ -34,8 +34,10 @@ pub struct Parcel {
     pub source: Source,
     /// The pixels that arrive.
     pub mask: Mask,
-    /// Their form factor together.
+    /// The form factor together of those that left for it, which are they unless the mask is coarse.
     pub form_factor: f64,
+    /// If the mask is coarser than the hemisphere: the side by which the source comes in.
+    pub through: Option<Side>,
 }
 
 impl Parcel {
@@ -226,13 +228,26 @@ impl Message {
 /// Bits of a message that hold the number of pixels; [`radiosity::MOST_PIXELS`] fits them.
 const PIXEL_BITS: u32 = 25;
 
-fn encode_parcel(parcel: &Parcel, to: &mut Vec<u8>) {
-    let Parcel { environment, source, mask, form_factor } = parcel;
-    // Pixels take 25 bits; above them stands how many share a bit, or how many bits an integer has.
-    let layout = match mask.depth_bits() {
+/// 1, 2, 4 and so on to 64 pixels may share a bit.
+const COARSENESSES: u32 = 7;
+/// Sizes of the integers that travel where there are media.
+const DEPTHS: [DepthBits; 2] = [DepthBits::Eight, DepthBits::Sixteen];
+/// How many ways there are to send a mask.
+const LAYOUTS: u32 = COARSENESSES + DEPTHS.len() as u32;
+
+/// How a mask travels: a bit for so many pixels, or an integer each.
+fn layout(mask: &Mask) -> u32 {
+    match mask.depth_bits() {
         None => mask.pixels_a_bit().trailing_zeros(),
-        Some(bits) => bits.bits(),
-    };
+        Some(DepthBits::Eight) => COARSENESSES,
+        Some(DepthBits::Sixteen) => COARSENESSES + 1,
+    }
+}
+
+fn encode_parcel(parcel: &Parcel, to: &mut Vec<u8>) {
+    let Parcel { environment, source, mask, form_factor, through } = parcel;
+    let through = through.map_or(0, |side| 1 + side.index() as u32);
+    let layout = layout(mask) + LAYOUTS * through;
     let pixels = mask.pixels() | layout << PIXEL_BITS;
     let numbers = [*environment, source.environment, source.patch, source.polygon, pixels];
     numbers.iter().for_each(|n| to.extend(n.to_le_bytes()));
@@ -262,15 +277,18 @@ fn decode_parcel(from: &mut Reader) -> Result<Parcel, DecodeError> {
         radiosity: from.vector()?,
     };
     let form_factor = from.f64()?;
-    let mask = decode_mask(std::mem::take(&mut from.0), pixels)?;
-    Ok(Parcel { environment, source, mask, form_factor })
+    let (pixels, layout) = (pixels & ((1 << PIXEL_BITS) - 1), pixels >> PIXEL_BITS);
+    let mask = decode_mask(std::mem::take(&mut from.0), pixels, layout % LAYOUTS)?;
+    let through = (layout / LAYOUTS).checked_sub(1);
+    let through = through.and_then(|side| Side::ALL.get(side as usize)).copied();
+    Ok(Parcel { environment, source, mask, form_factor, through })
 }
 
 /// A mask from what has travelled, with its pixels and its layout.
-fn decode_mask(from: &[u8], pixels: u32) -> Result<Mask, DecodeError> {
-    let (pixels, layout) = (pixels & ((1 << PIXEL_BITS) - 1), pixels >> PIXEL_BITS);
-    let mask = match (DepthBits::of(layout), layout) {
-        (Some(bits), _) => {
+fn decode_mask(from: &[u8], pixels: u32, layout: u32) -> Result<Mask, DecodeError> {
+    let depths = (layout.checked_sub(COARSENESSES)).and_then(|i| DEPTHS.get(i as usize)).copied();
+    let mask = match depths {
+        Some(bits) => {
             let steps = from.chunks(bits.bits() as usize / 8).map(|chunk| match chunk {
                 &[steps] if bits == DepthBits::Eight => Ok(u16::from(steps)),
                 chunk => Reader(chunk).u16(),
@@ -278,11 +296,10 @@ fn decode_mask(from: &[u8], pixels: u32) -> Result<Mask, DecodeError> {
             Mask::from_steps(steps.collect::<Result<_, _>>()?, bits)
                 .filter(|mask| mask.pixels() == pixels)
         }
-        (None, 0..=6) => {
+        None => {
             let words = from.chunks(8).map(|chunk| Reader(chunk).take().map(u64::from_le_bytes));
             Mask::arrived(words.collect::<Result<_, _>>()?, pixels, 1 << layout)
         }
-        _ => None,
     };
     mask.ok_or(DecodeError("mask and pixels differ"))
 }
@@ -378,7 +395,21 @@ mod tests {
             power: DVec3::new(1.0, 2.0, 3.5),
             radiosity: DVec3::new(10.0, 20.0, 35.0),
         };
-        Message::Source(Box::new(Parcel { environment: 8, source, mask, form_factor: 0.25 }))
+        let through = None;
+        Message::Source(Box::new(Parcel {
+            environment: 8,
+            source,
+            mask,
+            form_factor: 0.25,
+            through,
+        }))
+    }
+
+    fn coarse_parcel(pixels: u32, pixels_a_bit: u32, side: Side) -> Message {
+        let Message::Source(mut parcel) = parcel(pixels) else { unreachable!() };
+        parcel.mask = parcel.mask.coarsened(pixels_a_bit);
+        parcel.through = Some(side);
+        Message::Source(parcel)
     }
 
     /// Every third bin is empty.
@@ -403,6 +434,8 @@ mod tests {
         for message in [
             parcel(30_976),
             parcel(65),
+            coarse_parcel(30_976, 8, Side::ALL[0]),
+            coarse_parcel(65, 64, Side::ALL[5]),
             Message::Update(vec![update; 3]),
             Message::Update(vec![]),
             Message::Collect,
@@ -444,6 +477,9 @@ mod tests {
         for (bits, more) in [(DepthBits::Eight, 30_976), (DepthBits::Sixteen, 2 * 30_976)] {
             assert_eq!(dimmed(30_976, bits).encode().len(), bytes - 3_872 + more);
         }
+        // With eight pixels a bit an eighth of the mask.
+        let bytes = coarse_parcel(30_976, 8, Side::ALL[3]).encode().len();
+        assert_eq!(bytes, 1 + 5 * 4 + 4 * 24 + 8 + 488);
     }
 
     #[test]

@@ -57,6 +57,8 @@ pub struct SentMessage {
     pub kind: MessageKind,
     /// Its length.
     pub bytes: u64,
+    /// Whether a coprocessor sends it: then the processor has sent it before, and goes on meanwhile.
+    pub handed_over: bool,
 }
 
 /// What a node is doing.

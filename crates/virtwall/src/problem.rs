@@ -118,24 +118,17 @@ impl Problem {
     ) -> impl Iterator<Item = Parcel> {
         let (from, source, masks) = (parcel.environment, parcel.source, self.walls.is_none());
         Side::ALL.into_iter().zip(&shot.outgoing).filter_map(move |(side, outgoing)| {
-            let Outgoing { mask, form_factor } = outgoing.clone().filter(|_| masks)?;
-            let environment = self.decomposition.neighbour(from, side);
-            let parcel = Parcel { environment, source, mask, form_factor };
+            let Outgoing { mask, form_factor } = outgoing.as_ref().filter(|_| masks)?;
             // Integers travel for every pixel.
-            let whole = pixels_a_bit == 1 || parcel.mask.depth_bits().is_some();
-            Some(if whole { parcel } else { self.coarsened(parcel, pixels_a_bit) })
+            let whole = pixels_a_bit == 1 || mask.depth_bits().is_some();
+            Some(Parcel {
+                environment: self.decomposition.neighbour(from, side),
+                source,
+                mask: if whole { mask.clone() } else { mask.coarsened(pixels_a_bit) },
+                form_factor: *form_factor,
+                through: (!whole).then_some(Side { upper: !side.upper, ..side }),
+            })
         })
-    }
-
-    /// A parcel whose mask has a bit for so many pixels, and as much energy as before.
-    fn coarsened(&self, mut parcel: Parcel, pixels_a_bit: u32) -> Parcel {
-        parcel.mask = parcel.mask.coarsened(pixels_a_bit);
-        let form_factor = self.hemisphere.form_factor(&parcel.mask);
-        if form_factor > 0.0 {
-            parcel.source.power *= parcel.form_factor / form_factor;
-            parcel.form_factor = form_factor;
-        }
-        parcel
     }
 
     /// The sources that a wall patch is for the environment behind it: its bins that hold power.
@@ -148,7 +141,7 @@ impl Problem {
             let power = Rgb::from_array(power.map(f64::from));
             let source = walls.source(&around, side, [*patch, bin], power);
             let mask = Mask::all(self.rays_of(&source).pixels());
-            Parcel { environment: *environment, source, mask, form_factor: 1.0 }
+            Parcel { environment: *environment, source, mask, form_factor: 1.0, through: None }
         };
         powers.map(bin).collect()
     }
