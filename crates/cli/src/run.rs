@@ -109,6 +109,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let set: Vec<String> = arguments.set.iter().cloned().chain(network).collect();
     let threads = arguments.threads.map_or_else(parallel::host_threads, usize::from);
     let plan = Arc::new(Plan::read(&arguments.file, &set, threads)?);
+    arguments.viewer.check(&plan).map_err(Exit::bad_input)?;
     let default = || PathBuf::from("results").join(&plan.name);
     let out = arguments.out.clone().unwrap_or_else(default);
     let place = out.display();
