@@ -206,6 +206,10 @@ impl Planner<'_> {
             return if *error_causes { Err(fault()) } else { Ok(None) };
         };
         let refuse = |message| self.fault(draft.point, "reference", message);
+        if !scene.geometry.media.is_empty() {
+            let message = format!("\"{name}\" knows no \"media\"; expected a scene without them");
+            return Err(refuse(message));
+        }
         let (patches, most) = (problem.problem.patches(), answer::MOST_DENSE);
         if (name == answer::DENSE || *error_causes) && patches > most {
             let message = format!("a dense solution of {patches} patches; expected at most {most}");
