@@ -112,7 +112,7 @@ impl Mask {
     /// The mask with one bit for each `pixels_a_bit` consecutive pixels, which are neighbours on the
     /// hemisphere: 1, 2, 4 and so on to 64.
     ///
-    /// Choice C30: of pixels that disagree the majority decides, and if they are equally many they
+    /// Choice C36: of pixels that disagree the majority decides, and if they are equally many they
     /// count as true; where no bit would be true, the first of those with most true pixels is. So the
     /// mask has about as many true pixels as before.
     pub fn coarsened(&self, pixels_a_bit: u32) -> Mask {
