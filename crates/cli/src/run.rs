@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
-use lab::{Endings, HostClock, On, Options, Plan, Results, ShotFiles, Traces};
+use lab::{Endings, HostClock, On, Options, Plan, Results, ShotFiles, Traces, Viewing};
 use multicomputer::quantity::{Dimension, QuantityError, parse};
 use reference::parallel;
 use traces::{Format, Sample};
@@ -57,9 +57,28 @@ pub struct Arguments {
     #[arg(long, value_name = "N", requires = "trace", default_value = "1")]
     #[arg(value_parser = clap::value_parser!(u32).range(1..))]
     trace_sample: u32,
+    /// Runs that the report's viewer shows: auto (all of a few, else for each scene those on the
+    /// fewest and the most processors), all, none, or rows of runs.csv such as 1,8,24
+    #[arg(long, value_name = "RUNS", default_value = "auto", value_parser = viewing)]
+    viewer: Viewing,
     /// Print nothing but what went wrong: no progress, no table
     #[arg(long, short)]
     quiet: bool,
+}
+
+fn viewing(text: &str) -> Result<Viewing, String> {
+    let row = |row: &str| row.parse().ok().filter(|&row| row > 0);
+    match text {
+        "auto" => Ok(Viewing::Automatic),
+        "all" => Ok(Viewing::All),
+        "none" => Ok(Viewing::None),
+        rows => {
+            rows.split(',').map(row).collect::<Option<_>>().map(Viewing::Rows).ok_or_else(|| {
+                "expected auto, all, none, or rows of runs.csv, counted from 1, such as 1,8"
+                    .to_owned()
+            })
+        }
+    }
 }
 
 /// A number of bytes, with its unit.
@@ -90,6 +109,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let set: Vec<String> = arguments.set.iter().cloned().chain(network).collect();
     let threads = arguments.threads.map_or_else(parallel::host_threads, usize::from);
     let plan = Arc::new(Plan::read(&arguments.file, &set, threads)?);
+    arguments.viewer.check(&plan).map_err(Exit::bad_input)?;
     let default = || PathBuf::from("results").join(&plan.name);
     let out = arguments.out.clone().unwrap_or_else(default);
     let place = out.display();
@@ -103,7 +123,9 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         OnArgument::Threads => On::Threads,
     };
     let memory = arguments.memory.unwrap_or_else(lab::half_of_free_memory);
-    let options = Options { threads, fresh: arguments.fresh, on, memory, shot_files, traces };
+    let viewing = arguments.viewer.clone();
+    let options =
+        Options { threads, fresh: arguments.fresh, on, memory, shot_files, traces, viewing };
     let progress = Arc::new(Progress::new(Arc::clone(&plan), arguments.quiet));
     let watch = {
         let progress = Arc::clone(&progress);

@@ -1,11 +1,14 @@
 //! An experiment file, typed: one point of its sweep, every field as the user may write it.
 
+use std::collections::BTreeMap;
+
 use multicomputer::Model;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use crate::display::DisplayFields;
+use crate::interfaces::{Interfaces, VirtualWalls};
 use crate::knobs::SplitFields;
 use crate::node_memory::NodeMemoryFields;
 use crate::quantity::{Fraction, Length, Period, Triple};
@@ -91,6 +94,17 @@ pub struct Experiment {
     /// The hemisphere of rays over a source.
     #[serde(default)]
     pub hemisphere: Hemisphere,
+    /// What carries light across from one local environment to the next.
+    #[serde(default, skip_serializing_if = "Interfaces::are_masks")]
+    pub interfaces: Interfaces,
+    /// How virtual walls are meshed, where they stand in place of masks.
+    #[serde(default, skip_serializing_if = "VirtualWalls::are_default")]
+    pub virtual_walls: VirtualWalls,
+    /// Bits of an integer of a mask where the scene has media: 8 or 16, 16 by default. Choice C42: the paper
+    /// has such masks in sight and says no more (§3.2).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 8, max = 16))]
+    pub mask_bits: Option<u32>,
     /// Into how many sources a patch is cut, where things near it deserve that.
     #[serde(default, skip_serializing_if = "SplitFields::is_none")]
     pub source_split: SplitFields,
@@ -108,6 +122,10 @@ pub struct Experiment {
     /// relative to the root mean square of what is reflected.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reference: Option<String>,
+    /// Whether to take each run's error apart, by some more runs: columns error_mask, error_stopping,
+    /// error_directions, error_sampling and error_mesh. It needs a "reference".
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub error_causes: bool,
     /// Which source a node shoots next. Choice C4: §3.2 says the most unshot energy, §4.2.2 the
     /// greatest delta-radiosity.
     #[serde(default)]
@@ -295,6 +313,17 @@ pub struct Plot {
     /// a line's points, and to tell its exponent. Both axes are logarithmic then.
     #[serde(default, skip_serializing_if = "is_false")]
     pub power_law: bool,
+    /// Whether to draw, in place of lines from point to point, lines through those points only that no
+    /// other betters in x and y at once. Both axes are logarithmic then.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub pareto: bool,
+    /// Runs to be marked: for some columns the values that they have, such as
+    /// {"hemisphere.pixels": 30976}.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub mark: BTreeMap<String, Value>,
+    /// What the marked runs are called. Default: "marked".
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mark_name: Option<String>,
     /// Name of the SVG file, without folder or ending. Default: "<y>-by-<x>".
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
@@ -309,7 +338,8 @@ impl Plot {
 
     /// Whether the horizontal and the vertical axis are logarithmic.
     pub fn logarithmic(&self) -> [bool; 2] {
-        [self.log_x || self.power_law, self.log_y || self.power_law]
+        let both = self.power_law || self.pareto;
+        [self.log_x || both, self.log_y || both]
     }
 }
 

@@ -5,7 +5,9 @@
 //! ([`Results`]). Knows nothing of how a kernel or a link works: all of that is behind `engine`.
 
 mod answer;
+mod causes;
 mod chart;
+mod cheapest;
 mod check;
 mod columns;
 mod comparison;
@@ -25,16 +27,19 @@ mod held;
 mod host_clock;
 mod host_memory;
 mod host_times;
+mod interfaces;
 mod json;
 mod knobs;
 mod machine_file;
 mod measure;
+mod medium;
 mod message_layer;
 mod network;
 mod networks;
 mod node_memory;
 mod open_machine;
 mod open_scene;
+mod pareto;
 mod place;
 mod plan;
 mod planner;
@@ -43,6 +48,7 @@ mod program;
 mod quantity;
 mod queue;
 mod ray_bench;
+mod reels;
 mod report;
 mod results;
 mod runner;
@@ -61,6 +67,7 @@ mod sweep;
 mod table;
 mod traces;
 mod trials;
+mod viewing;
 
 pub use check::check;
 pub use document::Document;
@@ -84,6 +91,7 @@ pub use stage::{Stage, StagedRun, Which};
 pub use table::Table;
 pub use traces::Traces;
 pub use trials::Trials;
+pub use viewing::Viewing;
 
 /// Draws a plot of a table as the text of an SVG file; a column `paper_<y>` or
 /// `published_<y>` holds published points.

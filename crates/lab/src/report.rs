@@ -3,7 +3,9 @@
 use std::fmt::Write;
 
 use serde_json::Value;
+use viewer::Recorded;
 
+use crate::cheapest;
 use crate::columns;
 use crate::console::{Line, lines};
 use crate::experiment::experiment_schema;
@@ -17,8 +19,14 @@ const RATIOS: &str = "<p>Ratios are simulated over paper: of speed-ups, and of t
                       processor.</p>\n";
 
 /// The page on the results of `manifest`, whose runs are `runs`, swept over the fields `sweeps`;
-/// `drawings` are its plots, as SVG.
-pub fn html(manifest: &Value, runs: &Table, sweeps: &[String], drawings: &[String]) -> String {
+/// `drawings` are its plots, as SVG, and `recorded` what its viewer shows.
+pub fn html(
+    manifest: &Value,
+    runs: &Table,
+    sweeps: &[String],
+    drawings: &[String],
+    recorded: Option<&Recorded>,
+) -> String {
     let title = escape(&columns::cell(&manifest["title"]));
     let lead = lead(manifest, runs);
     let compared = Summary::of(runs).lines();
@@ -30,27 +38,37 @@ pub fn html(manifest: &Value, runs: &Table, sweeps: &[String], drawings: &[Strin
     let figures: String = figures.collect();
     let ratios = if compared.is_empty() { "" } else { RATIOS };
     let grouped = grouped(&lines(runs, sweeps));
+    let cheapest = cheapest(runs, sweeps);
     let all = table(&shown_columns(runs), runs);
     let choices = choices(manifest);
     let problems = problems(manifest);
     let experiment = serde_json::to_string_pretty(&manifest["experiment"]).unwrap_or_default();
     let experiment = escape(&experiment);
     let files = files(manifest);
+    let [viewer_style, answers, data] = recorded.map(viewer_parts).unwrap_or_default();
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width\">\n<title>{title}</title>\n\
-         <style>\n{STYLE}</style>\n</head>\n<body>\n\
-         <h1>{title}</h1>\n{lead}{summary}{warnings}{figures}\
-         <h2>Runs</h2>\n{ratios}{grouped}\
+         <style>\n{STYLE}{viewer_style}</style>\n</head>\n<body>\n\
+         <h1>{title}</h1>\n{lead}{summary}{warnings}{answers}{figures}\
+         {cheapest}<h2>Runs</h2>\n{ratios}{grouped}\
          <details><summary>All columns</summary>\n{all}</details>\n\
          <h2>Choices</h2>\n\
          <p>What the paper leaves open, and what this experiment takes.</p>\n{choices}\
          <h2>Scenes</h2>\n{problems}\
          <h2>Configuration</h2>\n<p>Every field, defaults filled in. It is an experiment file \
          that gives these results again.</p>\n<pre>{experiment}</pre>\n\
-         <h2>Files</h2>\n{files}\
+         <h2>Files</h2>\n{files}{data}\
          </body>\n</html>\n"
     )
+}
+
+/// The viewer: its style, what stands among the text, and what ends the page.
+fn viewer_parts(recorded: &Recorded) -> [String; 3] {
+    let answers =
+        format!("<h2>What happened, and why</h2>\n{}{}", recorded.answers, viewer::MARKUP);
+    let data = format!("{}{}", recorded.data, viewer::program());
+    [viewer::STYLE.to_owned(), answers, data]
 }
 
 fn lead(manifest: &Value, runs: &Table) -> String {
@@ -108,6 +126,26 @@ fn grouped(lines: &[Line]) -> String {
          <tr><th></th><th colspan=\"2\">simulated</th><th colspan=\"2\">paper</th><th></th><th></th></tr>\n\
          <tr><th>processors</th><th>time s</th><th>speed-up</th><th>time s</th><th>speed-up</th>\
          <th>ratio</th><th></th></tr>\n</thead>\n<tbody>\n{rows}</tbody>\n</table></div>\n"
+    )
+}
+
+/// What accuracy costs, where runs tell their errors.
+fn cheapest(runs: &Table, sweeps: &[String]) -> String {
+    let cheapest = cheapest::cheapest(runs, sweeps);
+    if cheapest.is_empty() {
+        return String::new();
+    }
+    let row = |c: &cheapest::Cheapest| {
+        let cells = c.cells();
+        let cells = cells.iter().map(|cell| format!("<td class=\"text\">{}</td>", escape(cell)));
+        format!("<tr>{}</tr>\n", cells.collect::<String>())
+    };
+    let rows: String = cheapest.iter().map(row).collect();
+    let head = ["scene", "error at most", "time s", "found", "cheapest setting"];
+    let head = head.map(|cell| format!("<th class=\"text\">{cell}</th>")).concat();
+    format!(
+        "<h2>What accuracy costs</h2>\n<div class=\"wide\"><table>\n<thead><tr>{head}</tr></thead>\n\
+         <tbody>\n{rows}</tbody>\n</table></div>\n"
     )
 }
 

@@ -61,7 +61,8 @@ impl Scene {
         share_planes(&mut polygons, tolerance);
         let vertices = keep_used(&welded, &mut polygons);
         let bounds = Bounds::of(vertices.iter().copied());
-        Ok((Scene { vertices, polygons, materials, objects, origin, bounds }, warnings))
+        let media = Vec::new();
+        Ok((Scene { vertices, polygons, materials, objects, origin, bounds, media }, warnings))
     }
 }
 

@@ -87,8 +87,22 @@ impl Hemisphere {
                 hemicube(side)
             }
         };
+        Ok(Hemisphere::of(&directions, &weights, rotated))
+    }
+
+    /// Bin `bin` of the `n` × `n` of a concentric square of directions, with `side` × `side` rays.
+    pub(crate) fn bin_of_square(n: u32, bin: u32, side: u32) -> Hemisphere {
+        let row =
+            |j: u32| (0..side).map(move |i| (bin / n * side + j) * n * side + bin % n * side + i);
+        let pixels = (0..side).flat_map(row);
+        let (directions, weights) = equal(pixels.map(|i| concentric_pixel(n * side, i)).collect());
+        Hemisphere::of(&directions, &weights, false)
+    }
+
+    /// A hemisphere of these directions, put in order.
+    fn of(directions: &[DVec3], weights: &[f64], rotated: bool) -> Hemisphere {
         let mut order: Vec<u32> = (0..directions.len() as u32).collect();
-        group(&mut order, &directions);
+        group(&mut order, directions);
         let directions: Vec<DVec3> = order.iter().map(|&i| directions[i as usize]).collect();
         let weights: Vec<f64> = order.iter().map(|&i| weights[i as usize]).collect();
         let sums = weights.iter().all(|&weight| weight == weights[0]).then(|| {
@@ -100,7 +114,7 @@ impl Hemisphere {
             std::iter::once(0.0).chain(weights.iter().map(add)).collect()
         });
         let bundles = Bundles::new(&directions);
-        Ok(Hemisphere { bundles, directions, weights, sums, rotated, by_place: false })
+        Hemisphere { bundles, directions, weights, sums, rotated, by_place: false }
     }
 
     /// The same directions laid over each source by where it lies from the scene's centre, so that they
@@ -236,18 +250,34 @@ fn polar(pixels: u32) -> Vec<DVec3> {
 }
 
 fn concentric(side: u32) -> Vec<DVec3> {
+    (0..side * side).map(|i| concentric_pixel(side, i)).collect()
+}
+
+fn concentric_pixel(side: u32, i: u32) -> DVec3 {
     let at = |i: u32| 2.0 * (f64::from(i) + 0.5) / f64::from(side) - 1.0;
-    let pixel = |i: u32| {
-        let (x, y) = (at(i % side), at(i / side));
-        if x == 0.0 && y == 0.0 {
-            DVec3::Z
-        } else if x.abs() > y.abs() {
-            lifted(x, PI / 4.0 * (y / x))
-        } else {
-            lifted(y, PI / 2.0 - PI / 4.0 * (x / y))
-        }
-    };
-    (0..side * side).map(pixel).collect()
+    let (x, y) = (at(i % side), at(i / side));
+    if x == 0.0 && y == 0.0 {
+        DVec3::Z
+    } else if x.abs() > y.abs() {
+        lifted(x, PI / 4.0 * (y / x))
+    } else {
+        lifted(y, PI / 2.0 - PI / 4.0 * (x / y))
+    }
+}
+
+/// Where the concentric map has a direction, given by its two components across the normal, from: a point
+/// of the square from -1 to 1.
+pub(crate) fn unlifted(x: f64, y: f64) -> [f64; 2] {
+    let r = (x * x + y * y).sqrt();
+    if r == 0.0 {
+        [0.0; 2]
+    } else if x.abs() > y.abs() {
+        let r = r.copysign(x);
+        [r, r * libm::atan(y / x) * 4.0 / PI]
+    } else {
+        let r = r.copysign(y);
+        [r * libm::atan(x / y) * 4.0 / PI, r]
+    }
 }
 
 /// Top face of side × side pixels, then four half-faces (Cohen and Greenberg 1985).

@@ -5,7 +5,8 @@ use radiosity::{Rgb, Shot};
 use crate::message::Parcel;
 use crate::outcome::EnergyLedger;
 
-/// A source that has been selected and not been shot yet is in transit, too.
+/// A source that has been selected and not been shot yet is in transit, too, and so is what virtual walls
+/// have gathered.
 impl EnergyLedger {
     /// Before the first shot: all is unshot.
     pub fn at_first(emitted: Rgb) -> EnergyLedger {
@@ -27,6 +28,7 @@ impl EnergyLedger {
         let onward: f64 = shot.outgoing.iter().flatten().map(|out| out.form_factor).sum();
         self.absorbed += power * (fallen + shot.backs) - reflected;
         self.escaped += power * shot.escaped;
+        self.medium += power * shot.medium;
         self.in_transit += power * (onward - source.form_factor);
         self.unshot += reflected;
     }

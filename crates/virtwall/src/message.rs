@@ -1,14 +1,17 @@
 //! The wire format of everything that processes send.
 
-use radiosity::glam::DVec3;
-use radiosity::{Mask, Source};
-use thiserror::Error;
+use radiosity::{DepthBits, Mask, Side, Source};
+
+use crate::reader::{DecodeError, Reader};
+use crate::wall_patch::WallPatch;
 
 /// A message between processes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Message {
     /// A source and its mask for one environment of the receiver (§4.2.3).
     Source(Box<Parcel>),
+    /// What a wall patch has gathered, where virtual walls stand in place of masks.
+    WallPatch(Box<WallPatch>),
     /// Radiosities of patches that a shot changed, for the display (Figure 6, `send_to_host`).
     Update(Vec<PatchUpdate>),
     /// The service node asks for sums of energy.
@@ -32,8 +35,10 @@ pub struct Parcel {
     pub source: Source,
     /// The pixels that arrive.
     pub mask: Mask,
-    /// Their form factor together.
+    /// The form factor together of those that left for it, which are they unless the mask is coarse.
     pub form_factor: f64,
+    /// If the mask is coarser than the hemisphere: the side by which the source comes in.
+    pub through: Option<Side>,
 }
 
 impl Parcel {
@@ -85,11 +90,13 @@ pub enum MessageKind {
     Token,
     /// [`Message::Done`].
     Done,
+    /// [`Message::WallPatch`].
+    WallPatch,
 }
 
 impl MessageKind {
     /// Every kind, in the order of the bytes with which messages begin.
-    pub const ALL: [MessageKind; 7] = [
+    pub const ALL: [MessageKind; 8] = [
         MessageKind::Source,
         MessageKind::Update,
         MessageKind::Collect,
@@ -97,6 +104,7 @@ impl MessageKind {
         MessageKind::StopSelecting,
         MessageKind::Token,
         MessageKind::Done,
+        MessageKind::WallPatch,
     ];
 
     /// The kind of an encoded message.
@@ -114,14 +122,10 @@ impl MessageKind {
             MessageKind::StopSelecting => "stop selecting",
             MessageKind::Token => "token",
             MessageKind::Done => "done",
+            MessageKind::WallPatch => "wall patch",
         }
     }
 }
-
-/// Bytes that are not a message.
-#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
-#[error("not a message: {0}")]
-pub struct DecodeError(pub(crate) &'static str);
 
 impl Message {
     /// The bytes that travel, little-endian.
@@ -129,8 +133,10 @@ impl Message {
         let mut to = Vec::new();
         match self {
             Message::Source(parcel) => {
-                let bits = parcel.mask.pixels() / parcel.mask.pixels_a_bit();
-                to.reserve(160 + bits as usize / 8);
+                let Parcel { mask, .. } = &**parcel;
+                to.reserve(
+                    160 + (mask.pixels() / mask.pixels_a_bit() * mask.bits_a_pixel() / 8) as usize,
+                );
                 to.push(0);
                 encode_parcel(parcel, &mut to);
             }
@@ -154,6 +160,10 @@ impl Message {
             Message::StopSelecting => to.push(4),
             Message::Token(value) => to.extend([5, u8::from(*value)]),
             Message::Done => to.push(6),
+            Message::WallPatch(wall_patch) => {
+                to.push(7);
+                wall_patch.encode(&mut to);
+            }
         }
         to
     }
@@ -184,6 +194,7 @@ impl Message {
             4 => Message::StopSelecting,
             5 => Message::Token(from.byte()? != 0),
             6 => Message::Done,
+            7 => Message::WallPatch(Box::new(WallPatch::decode(&mut from)?)),
             _ => return Err(DecodeError("unknown kind")),
         };
         if from.0.is_empty() { Ok(message) } else { Err(DecodeError("bytes left over")) }
@@ -193,17 +204,40 @@ impl Message {
 /// Bits of a message that hold the number of pixels; [`radiosity::MOST_PIXELS`] fits them.
 const PIXEL_BITS: u32 = 25;
 
+/// 1, 2, 4 and so on to 64 pixels may share a bit.
+const COARSENESSES: u32 = 7;
+/// Sizes of the integers that travel where there are media.
+const DEPTHS: [DepthBits; 2] = [DepthBits::Eight, DepthBits::Sixteen];
+/// How many ways there are to send a mask.
+const LAYOUTS: u32 = COARSENESSES + DEPTHS.len() as u32;
+
+/// How a mask travels: a bit for so many pixels, or an integer each.
+fn layout(mask: &Mask) -> u32 {
+    match mask.depth_bits() {
+        None => mask.pixels_a_bit().trailing_zeros(),
+        Some(DepthBits::Eight) => COARSENESSES,
+        Some(DepthBits::Sixteen) => COARSENESSES + 1,
+    }
+}
+
 fn encode_parcel(parcel: &Parcel, to: &mut Vec<u8>) {
-    let Parcel { environment, source, mask, form_factor } = parcel;
-    // Pixels take 25 bits; above them stands how many share a bit.
-    let pixels = mask.pixels() | mask.pixels_a_bit().trailing_zeros() << PIXEL_BITS;
+    let Parcel { environment, source, mask, form_factor, through } = parcel;
+    let through = through.map_or(0, |side| 1 + side.index() as u32);
+    let layout = layout(mask) + LAYOUTS * through;
+    let pixels = mask.pixels() | layout << PIXEL_BITS;
     let numbers = [*environment, source.environment, source.patch, source.polygon, pixels];
     numbers.iter().for_each(|n| to.extend(n.to_le_bytes()));
     for vector in [source.centre, source.normal, source.power, source.radiosity] {
         vector.to_array().iter().for_each(|x| to.extend(x.to_le_bytes()));
     }
     to.extend(form_factor.to_le_bytes());
-    mask.travelling().iter().for_each(|word| to.extend(word.to_le_bytes()));
+    match mask.steps() {
+        None => mask.travelling().iter().for_each(|word| to.extend(word.to_le_bytes())),
+        Some((steps, DepthBits::Eight)) => to.extend(steps.iter().map(|&steps| steps as u8)),
+        Some((steps, DepthBits::Sixteen)) => {
+            steps.iter().for_each(|steps| to.extend(steps.to_le_bytes()));
+        }
+    }
 }
 
 fn decode_parcel(from: &mut Reader) -> Result<Parcel, DecodeError> {
@@ -219,56 +253,51 @@ fn decode_parcel(from: &mut Reader) -> Result<Parcel, DecodeError> {
         radiosity: from.vector()?,
     };
     let form_factor = from.f64()?;
-    let words = std::mem::take(&mut from.0);
-    let words = words.chunks(8).map(|chunk| Reader(chunk).take().map(u64::from_le_bytes));
-    let (pixels, logarithm) = (pixels & ((1 << PIXEL_BITS) - 1), pixels >> PIXEL_BITS);
-    let mask = Mask::arrived(words.collect::<Result<_, _>>()?, pixels, 1 << logarithm)
-        .ok_or(DecodeError("mask and pixels differ"))?;
-    Ok(Parcel { environment, source, mask, form_factor })
+    let (pixels, layout) = (pixels & ((1 << PIXEL_BITS) - 1), pixels >> PIXEL_BITS);
+    let mask = decode_mask(std::mem::take(&mut from.0), pixels, layout % LAYOUTS)?;
+    let through = (layout / LAYOUTS).checked_sub(1);
+    let through = through.and_then(|side| Side::ALL.get(side as usize)).copied();
+    Ok(Parcel { environment, source, mask, form_factor, through })
 }
 
-/// Bytes not read yet.
-pub(crate) struct Reader<'a>(pub(crate) &'a [u8]);
-
-impl Reader<'_> {
-    fn take<const N: usize>(&mut self) -> Result<[u8; N], DecodeError> {
-        let (taken, rest) = self.0.split_first_chunk().ok_or(DecodeError("too short"))?;
-        self.0 = rest;
-        Ok(*taken)
-    }
-
-    pub(crate) fn byte(&mut self) -> Result<u8, DecodeError> {
-        self.take().map(|[byte]| byte)
-    }
-
-    pub(crate) fn u32(&mut self) -> Result<u32, DecodeError> {
-        self.take().map(u32::from_le_bytes)
-    }
-
-    pub(crate) fn u64(&mut self) -> Result<u64, DecodeError> {
-        self.take().map(u64::from_le_bytes)
-    }
-
-    fn f32(&mut self) -> Result<f32, DecodeError> {
-        self.take().map(f32::from_le_bytes)
-    }
-
-    pub(crate) fn f64(&mut self) -> Result<f64, DecodeError> {
-        self.take().map(f64::from_le_bytes)
-    }
-
-    fn vector(&mut self) -> Result<DVec3, DecodeError> {
-        Ok(DVec3::new(self.f64()?, self.f64()?, self.f64()?))
-    }
+/// A mask from what has travelled, with its pixels and its layout.
+fn decode_mask(from: &[u8], pixels: u32, layout: u32) -> Result<Mask, DecodeError> {
+    let depths = (layout.checked_sub(COARSENESSES)).and_then(|i| DEPTHS.get(i as usize)).copied();
+    let mask = match depths {
+        Some(bits) => {
+            let steps = from.chunks(bits.bits() as usize / 8).map(|chunk| match chunk {
+                &[steps] if bits == DepthBits::Eight => Ok(u16::from(steps)),
+                chunk => Reader(chunk).u16(),
+            });
+            Mask::from_steps(steps.collect::<Result<_, _>>()?, bits)
+                .filter(|mask| mask.pixels() == pixels)
+        }
+        None => {
+            let words = from.chunks(8).map(|chunk| Reader(chunk).take().map(u64::from_le_bytes));
+            Mask::arrived(words.collect::<Result<_, _>>()?, pixels, 1 << layout)
+        }
+    };
+    mask.ok_or(DecodeError("mask and pixels differ"))
 }
 
 #[cfg(test)]
 mod tests {
+    use radiosity::glam::DVec3;
+
     use super::*;
 
     fn parcel(pixels: u32) -> Message {
         let mut mask = Mask::none(pixels);
         (0..pixels).step_by(3).for_each(|i| mask.set(i));
+        parcel_with(mask)
+    }
+
+    fn dimmed(pixels: u16, bits: DepthBits) -> Message {
+        let steps = (0..pixels).map(|i| if i % 3 == 0 { bits.hidden() } else { i % 200 });
+        parcel_with(Mask::from_steps(steps.collect(), bits).unwrap())
+    }
+
+    fn parcel_with(mask: Mask) -> Message {
         let source = Source {
             environment: 7,
             patch: 1_234,
@@ -278,7 +307,27 @@ mod tests {
             power: DVec3::new(1.0, 2.0, 3.5),
             radiosity: DVec3::new(10.0, 20.0, 35.0),
         };
-        Message::Source(Box::new(Parcel { environment: 8, source, mask, form_factor: 0.25 }))
+        let through = None;
+        Message::Source(Box::new(Parcel {
+            environment: 8,
+            source,
+            mask,
+            form_factor: 0.25,
+            through,
+        }))
+    }
+
+    fn coarse_parcel(pixels: u32, pixels_a_bit: u32, side: Side) -> Message {
+        let Message::Source(mut parcel) = parcel(pixels) else { unreachable!() };
+        parcel.mask = parcel.mask.coarsened(pixels_a_bit);
+        parcel.through = Some(side);
+        Message::Source(parcel)
+    }
+
+    /// Every third bin is empty.
+    fn wall_patch(bins: usize) -> Message {
+        let power = (0..bins).map(|bin| [(bin % 3) as f32; 3]).collect();
+        Message::WallPatch(Box::new(WallPatch { environment: 8, side: 5, patch: 77, power }))
     }
 
     #[test]
@@ -288,6 +337,8 @@ mod tests {
         for message in [
             parcel(30_976),
             parcel(65),
+            coarse_parcel(30_976, 8, Side::ALL[0]),
+            coarse_parcel(65, 64, Side::ALL[5]),
             Message::Update(vec![update; 3]),
             Message::Update(vec![]),
             Message::Collect,
@@ -296,6 +347,10 @@ mod tests {
             Message::Token(true),
             Message::Token(false),
             Message::Done,
+            dimmed(65, DepthBits::Eight),
+            dimmed(65, DepthBits::Sixteen),
+            wall_patch(1),
+            wall_patch(65),
         ] {
             let bytes = message.encode();
             assert_eq!(Message::decode(&bytes).unwrap(), message);
@@ -312,6 +367,7 @@ mod tests {
             Message::StopSelecting => kind == MessageKind::StopSelecting,
             Message::Token(_) => kind == MessageKind::Token,
             Message::Done => kind == MessageKind::Done,
+            Message::WallPatch(_) => kind == MessageKind::WallPatch,
         }
     }
 
@@ -321,13 +377,21 @@ mod tests {
         let bytes = parcel(30_976).encode().len();
         assert_eq!(bytes, 1 + 5 * 4 + 4 * 24 + 8 + 3_872);
         assert!(bytes <= 4_096);
+        for (bits, more) in [(DepthBits::Eight, 30_976), (DepthBits::Sixteen, 2 * 30_976)] {
+            assert_eq!(dimmed(30_976, bits).encode().len(), bytes - 3_872 + more);
+        }
+        // With eight pixels a bit an eighth of the mask.
+        let bytes = coarse_parcel(30_976, 8, Side::ALL[3]).encode().len();
+        assert_eq!(bytes, 1 + 5 * 4 + 4 * 24 + 8 + 488);
     }
 
     #[test]
     fn bytes_that_are_no_message_are_refused() {
-        let whole = parcel(65).encode();
-        for length in 0..whole.len() {
-            assert!(Message::decode(&whole[..length]).is_err(), "{length}");
+        for whole in [parcel(65), wall_patch(65), dimmed(65, DepthBits::Sixteen)] {
+            let whole = whole.encode();
+            for length in 0..whole.len() {
+                assert!(Message::decode(&whole[..length]).is_err(), "{length}");
+            }
         }
         assert!(Message::decode(&[6, 6]).is_err());
         assert!(Message::decode(&[99]).is_err());

@@ -67,6 +67,9 @@ pub struct MessageRecord {
     pub to: u32,
     /// Its length.
     pub bytes: u32,
+    /// Whether a coprocessor sent it; else a span of its sender's begins when it is sent, if that
+    /// takes time.
+    pub handed_over: bool,
     /// When it went onto the network.
     pub sent: Time,
     /// When it came to its receiver's node, if it did.
@@ -84,9 +87,9 @@ pub struct EnergyAt {
     pub at: Time,
     /// On patches, not shot.
     pub unshot: f64,
-    /// In sources selected or handed on, and not shot yet.
+    /// In sources selected or handed on, and not shot yet, and gathered by virtual walls.
     pub in_transit: f64,
-    /// Absorbed by patches and by backs of polygons.
+    /// Absorbed by patches, by backs of polygons and by participating media.
     pub absorbed: f64,
     /// Gone out of the scene.
     pub escaped: f64,
@@ -98,7 +101,7 @@ impl EnergyAt {
             at,
             unshot: ledger.unshot.element_sum(),
             in_transit: ledger.in_transit.element_sum(),
-            absorbed: ledger.absorbed.element_sum(),
+            absorbed: (ledger.absorbed + ledger.medium).element_sum(),
             escaped: ledger.escaped.element_sum(),
         }
     }
@@ -160,6 +163,7 @@ impl Observer for Recording {
             from: message.from as u32,
             to: message.to as u32,
             bytes: message.bytes as u32,
+            handed_over: message.handed_over,
             sent: now,
             arrived: None,
             read: None,

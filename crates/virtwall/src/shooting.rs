@@ -1,6 +1,6 @@
 //! How a patch is shot, beyond what RR-3008 does: knobs that trade accuracy for time.
 
-use radiosity::Rgb;
+use radiosity::{LocalEnvironment, Part, Rgb, Space};
 
 /// How a patch is shot. The default is what RR-3008 does.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,8 +9,6 @@ pub struct Shooting {
     pub split: SourceSplit,
     /// Pixels of the hemisphere that share a bit of the masks that travel: 1, 2, 4 and so on to 64.
     ///
-    /// What is handed on is what has left, to the last joule: the power of a source is scaled by the
-    /// form factor of the pixels that left over that of the pixels that the coarse mask says left.
     pub pixels_a_bit: u32,
     /// What a patch that does not emit shoots, over what it has not shot; what is too much is missing
     /// from what it will shoot later (Feda and Purgathofer 1992).
@@ -47,4 +45,13 @@ pub struct SourceSplit {
 impl SourceSplit {
     /// Patches shoot from their centres.
     pub const NONE: SourceSplit = SourceSplit { nearer_than: f64::INFINITY, most: 1 };
+
+    /// The sources that a patch of an environment is cut into.
+    pub fn parts(&self, space: &Space, environment: &LocalEnvironment, patch: u32) -> Vec<Part> {
+        let along = match self.nearer_than.is_finite() {
+            true => environment.parts_needed(space, patch, self.nearer_than, self.most),
+            false => self.most,
+        };
+        environment.parts(space, patch, along)
+    }
 }
