@@ -74,13 +74,12 @@ impl March<'_> {
             (&self.problem.environments[environment as usize], self.ray.at(self.hit));
         Side::ALL.into_iter().filter(|&side| here.has_neighbour(side)).all(|side| {
             let at = point[side.axis];
-            let inside = match (side.upper, self.interface) {
+            match (side.upper, self.interface) {
                 (true, Interface::Open) => at < bounds.max[side.axis],
                 (true, _) => at <= bounds.max[side.axis],
                 (false, Interface::Open) => at > bounds.min[side.axis],
                 (false, _) => at >= bounds.min[side.axis],
-            };
-            inside
+            }
         })
     }
 

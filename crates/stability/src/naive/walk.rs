@@ -13,13 +13,12 @@ pub fn end(problem: &Problem, source: &Source, ray: &Ray) -> Option<f64> {
     let (origin, direction) = (ray.origin.to_array(), ray.direction.to_array());
     let (low, high) = (here.min.to_array(), here.max.to_array());
     let step = direction.map(|d| if d >= 0.0 { 1 } else { -1 });
-    let mut next = [0.0; 3];
-    let mut apart = [0.0; 3];
-    for axis in 0..3 {
+    let mut next: [f64; 3] = std::array::from_fn(|axis| {
         let plane = if step[axis] > 0 { high[axis] } else { low[axis] };
-        next[axis] = (plane - origin[axis]) / direction[axis];
-        apart[axis] = (high[axis] - low[axis]) / direction[axis].abs();
-    }
+        (plane - origin[axis]) / direction[axis]
+    });
+    let apart: [f64; 3] =
+        std::array::from_fn(|axis| (high[axis] - low[axis]) / direction[axis].abs());
     loop {
         let axis = if next[0] < next[1] {
             if next[0] < next[2] { 0 } else { 2 }
