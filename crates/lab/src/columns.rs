@@ -9,6 +9,7 @@ use crate::figures::Figures;
 use crate::message_layer;
 use crate::start_up;
 use crate::sweep::Axis;
+use crate::tuned;
 
 /// The first columns, always these, in this order.
 const FIRST: [&str; 14] = [
@@ -78,6 +79,8 @@ pub struct Also {
     pub memory: bool,
     /// Those of the message layer.
     pub message_layer: bool,
+    /// Those of settings that were found.
+    pub accuracy: bool,
     /// Those of errors.
     pub errors: bool,
     /// Those of the display.
@@ -95,7 +98,8 @@ impl Also {
         let display = display::COLUMNS.into_iter().filter(move |_| self.display);
         let start_up = start_up::COLUMNS.into_iter().filter(move |_| self.start_up);
         let machine = network.chain(memory).chain(layer).chain(display).chain(start_up);
-        machine.chain(errors)
+        let accuracy = tuned::COLUMNS.into_iter().filter(move |_| self.accuracy);
+        machine.chain(errors).chain(accuracy)
     }
 }
 

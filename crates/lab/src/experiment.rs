@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
+use crate::accuracy::AccuracyFields;
 use crate::display::DisplayFields;
 use crate::knobs::SplitFields;
 use crate::node_memory::NodeMemoryFields;
@@ -108,6 +109,11 @@ pub struct Experiment {
     /// relative to the root mean square of what is reflected.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reference: Option<String>,
+    /// The error that results are to stay below: the knobs that trade accuracy for time are found by
+    /// pilot runs, for each scene the cheapest that will do, and stand in the columns from target_l2
+    /// on.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<AccuracyFields>,
     /// Which source a node shoots next. Choice C4: §3.2 says the most unshot energy, §4.2.2 the
     /// greatest delta-radiosity.
     #[serde(default)]

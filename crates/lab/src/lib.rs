@@ -4,6 +4,7 @@
 //! out, run by run, each saved as it ends ([`carry_out`]); its results are written whole
 //! ([`Results`]). Knows nothing of how a kernel or a link works: all of that is behind `engine`.
 
+mod accuracy;
 mod answer;
 mod chart;
 mod check;
@@ -35,6 +36,7 @@ mod networks;
 mod node_memory;
 mod open_machine;
 mod open_scene;
+mod pilot;
 mod place;
 mod plan;
 mod planner;
@@ -60,6 +62,8 @@ mod summary;
 mod sweep;
 mod table;
 mod traces;
+mod tuned;
+mod tuner;
 
 pub use check::check;
 pub use engine::{Light, On};
@@ -72,6 +76,7 @@ pub use networks::text as networks_text;
 pub use open_machine::OpenMachine;
 pub use open_scene::OpenScene;
 pub use plan::Plan;
+pub use planner::Preparing;
 pub use ray_bench::RayBench;
 pub use results::{Results, write_host_times};
 pub use runner::{Endings, Event, Options, Watch, carry_out};
