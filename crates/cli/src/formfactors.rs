@@ -63,7 +63,7 @@ pub fn tolerance(text: &str) -> Result<f64, String> {
 
 /// Finds and writes them; returns what is to be printed.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
-    let open = OpenScene::load(&arguments.scene)?;
+    let open = OpenScene::load(&arguments.scene)?.without_media()?;
     let threads = arguments.threads.map_or_else(parallel::host_threads, usize::from);
     let matrix = match arguments.method {
         Method::Exact => exact(&open.scene, arguments.tolerance, threads),

@@ -18,6 +18,7 @@ mod run;
 mod scene_make;
 mod scene_show;
 mod schema;
+mod stability;
 mod steps;
 
 use std::process::ExitCode;
@@ -54,6 +55,8 @@ enum Command {
     Formfactors(formfactors::Arguments),
     /// Solve a scene as exactly as can be, and store the answer for others to be held against.
     Reference(make_reference::Arguments),
+    /// Try the cases in which such methods fail, and draw the page of failures.
+    Stability(stability::Arguments),
     /// Measure how fast this host is.
     #[command(subcommand)]
     Bench(BenchCommand),
@@ -101,6 +104,7 @@ fn main() -> ExitCode {
         Command::Render(arguments) => render::run(&arguments),
         Command::Formfactors(arguments) => formfactors::run(&arguments),
         Command::Reference(arguments) => make_reference::run(&arguments),
+        Command::Stability(arguments) => stability::run(&arguments),
         Command::Bench(BenchCommand::Rays(arguments)) => bench_rays::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
     };

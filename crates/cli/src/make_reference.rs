@@ -89,7 +89,7 @@ struct Partial {
 
 /// Solves and stores; returns what was done.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
-    let open = OpenScene::load(&arguments.scene)?;
+    let open = OpenScene::load(&arguments.scene)?.without_media()?;
     let size = PatchSize { reflector: open.patch_size, emitter: open.emitter_patch_size };
     let space = Space::new(open.scene, open.cells);
     let environment = LocalEnvironment::new(&space, space.grid.whole(), size);

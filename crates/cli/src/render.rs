@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use desim::Time;
-use lab::{Stage, Which};
+use lab::{Light, Stage, Which};
 use multicomputer::quantity::{Dimension, QuantityError, parse};
 use radiosity::glam::DVec3;
 use radiosity::{Camera, Exposure, Mesh, Picture, PictureOptions, Rgb, Shading, Tone, render};
@@ -34,8 +34,8 @@ pub struct Arguments {
     /// How radiosity runs over a patch
     #[arg(long, value_enum, default_value = "smooth")]
     shading: ShadingArgument,
-    /// The radiosity that becomes middle grey, W/m² [default: the geometric mean of what is seen, in an
-    /// animation of its last picture; of all patches in a glTF file without a picture]
+    /// The radiosity that becomes middle grey, W/m² [default: the geometric mean of what is seen, of a
+    /// run at its end; in a glTF file without a picture that of all patches]
     #[arg(long, value_name = "W/M2", value_parser = positive)]
     exposure: Option<f64>,
     /// How what is brighter than middle grey nears white
@@ -136,9 +136,9 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         mesh: Mesh::new(stage.space(), stage.environments(), shading),
         camera,
     };
-    let drawn = match frames {
-        Some(frames) => studio.animation(*frames)?,
-        None => studio.still()?,
+    let drawn = match (frames, &arguments.output) {
+        (Some(frames), Some(output)) => studio.animation(*frames, output)?,
+        _ => studio.still()?,
     };
     let mut text = format!("{}\n{drawn}", stage.title);
     for file in stage.run.iter().flat_map(|run| &run.changed) {
@@ -162,78 +162,82 @@ struct Studio<'a> {
 impl Studio<'_> {
     /// One picture, one glTF file, or both.
     fn still(&self) -> Result<String, Exit> {
-        let (light, when) = match &self.stage.run {
+        let (light, mut exposure, when) = match &self.stage.run {
             None => {
                 let (light, unshot) = self.stage.solved(self.arguments.moment.unshot);
-                (light, format!("{:.1} % of the light unshot", 100.0 * unshot))
+                let when = format!("{:.1} % of the light unshot", 100.0 * unshot);
+                (light, self.exposure(), when)
             }
             Some(run) => {
-                let (mut light, at) = (Vec::new(), self.arguments.moment.at);
-                let end = self.light_at(&[at.unwrap_or(Time::MAX)], &mut light)?;
-                let at = at.map_or(end, |at| at.min(end)) - Time::ZERO;
-                let when = format!("run {} at {at} of {}", run.row, end - Time::ZERO);
-                (light.swap_remove(0), when)
+                let at = self.arguments.moment.at.unwrap_or(Time::MAX);
+                let (mut light, end) = self.light_at(&[at, Time::MAX])?;
+                let when =
+                    format!("run {} at {} of {}", run.row, seconds(at.min(end)), seconds(end));
+                (light.swap_remove(0), self.exposure_of_end(&light[0])?, when)
             }
         };
         let light = self.mesh.light(&light);
-        let mut exposure = self.exposure();
-        let mut middle_grey = 0.0;
         if let Some(path) = &self.arguments.output {
-            middle_grey = self.write_picture(&light, exposure, path)?;
-            exposure = Exposure::MiddleGrey(middle_grey);
+            exposure = Exposure::MiddleGrey(self.write_picture(&light, exposure, path)?);
         }
         if let Some(path) = &self.arguments.gltf {
             let origin = self.stage.space().scene.origin;
-            let (bytes, middle) = self.mesh.to_glb(&light, origin, exposure, self.tone());
+            let (bytes, middle_grey) = self.mesh.to_glb(&light, origin, exposure, self.tone());
             lab::write_file(path, &bytes).map_err(Exit::bad_input)?;
-            middle_grey = middle;
+            exposure = Exposure::MiddleGrey(middle_grey);
         }
-        Ok(format!("{when}; middle grey is {middle_grey:.4} W/m²\n"))
+        Ok(match exposure {
+            Exposure::MiddleGrey(radiosity) => {
+                format!("{when}; middle grey is {radiosity:.4} W/m²\n")
+            }
+            Exposure::Auto => when,
+        })
     }
 
-    /// Numbered pictures. All have the exposure of the last one.
-    fn animation(&self, frames: u32) -> Result<String, Exit> {
-        let Some(output) = &self.arguments.output else { return Ok(String::new()) };
-        let mut light = Vec::new();
-        let end = self.light_at(&[Time::MAX], &mut light)? - Time::ZERO;
-        let last = numbered(output, frames, frames);
-        let middle_grey =
-            self.write_picture(&self.mesh.light(&light[0]), self.exposure(), &last)?;
-        let span = end.as_seconds_f64() / f64::from(frames - 1);
-        let time = |frame: u32| {
-            Time::ZERO + desim::Duration::from_seconds_f64(span * f64::from(frame - 1))
-        };
-        let others: Vec<u32> = (1..frames).collect();
-        for batch in others.chunks(BATCH) {
-            let times: Vec<Time> = batch.iter().map(|&frame| time(frame)).collect();
-            self.light_at(&times, &mut light)?;
-            for (&frame, light) in batch.iter().zip(&light) {
+    /// Numbered pictures, all with the exposure of the last one.
+    fn animation(&self, frames: u32, output: &Path) -> Result<String, Exit> {
+        let (light, end) = self.light_at(&[Time::MAX])?;
+        let exposure = self.exposure_of_end(&light[0])?;
+        let times: Vec<Time> = (0..frames).map(|frame| part(end, frame, frames - 1)).collect();
+        let mut frame = 0;
+        for times in times.chunks(BATCH) {
+            for light in self.light_at(times)?.0 {
+                frame += 1;
                 let path = numbered(output, frame, frames);
-                let exposure = Exposure::MiddleGrey(middle_grey);
-                self.write_picture(&self.mesh.light(light), exposure, &path)?;
+                self.write_picture(&self.mesh.light(&light), exposure, &path)?;
             }
         }
-        let last = last.display();
-        Ok(format!(
-            "{frames} pictures until {end}, to {last}; middle grey is {middle_grey:.4} W/m²\n"
-        ))
+        let (end, last) = (seconds(end), numbered(output, frames, frames));
+        Ok(format!("{frames} pictures until {end}, the last one is {}\n", last.display()))
     }
 
-    /// The light of the run at these times; returns its end.
-    fn light_at(&self, times: &[Time], light: &mut Vec<lab::Light>) -> Result<Time, Exit> {
-        let (found, end) = self.stage.light_at(times).map_err(Exit::failure)?;
-        *light = found;
-        Ok(end)
+    /// The light of the run at these times, and its end.
+    fn light_at(&self, times: &[Time]) -> Result<(Vec<Light>, Time), Exit> {
+        self.stage.light_at(times).map_err(Exit::failure)
     }
 
-    /// Returns the radiosity that became middle grey.
-    fn write_picture(&self, light: &[Rgb], exposure: Exposure, path: &Path) -> Result<f64, Exit> {
+    /// The exposure of all instants of a run: what suits its end.
+    fn exposure_of_end(&self, light: &Light) -> Result<Exposure, Exit> {
+        match self.exposure() {
+            Exposure::Auto if self.arguments.output.is_some() => {
+                let picture = self.picture(&self.mesh.light(light), Exposure::Auto)?;
+                Ok(Exposure::MiddleGrey(picture.middle_grey))
+            }
+            exposure => Ok(exposure),
+        }
+    }
+
+    fn picture(&self, light: &[Rgb], exposure: Exposure) -> Result<Picture, Exit> {
         let scene = &self.stage.space().scene;
         let cut_above = self.arguments.view.cut_above.map(|height| height - scene.origin.z);
         let options = PictureOptions { exposure, tone: self.tone(), cut_above };
         let colour = |polygon, point| self.mesh.radiosity_at(light, polygon, point);
-        let picture: Picture =
-            render(scene, &self.camera, colour, options).map_err(Exit::bad_input)?;
+        render(scene, &self.camera, colour, options).map_err(Exit::bad_input)
+    }
+
+    /// Returns the radiosity that became middle grey.
+    fn write_picture(&self, light: &[Rgb], exposure: Exposure, path: &Path) -> Result<f64, Exit> {
+        let picture = self.picture(light, exposure)?;
         let bytes = picture.encode_png().map_err(Exit::failure)?;
         lab::write_file(path, &bytes).map_err(Exit::bad_input)?;
         Ok(picture.middle_grey)
@@ -275,6 +279,16 @@ impl View {
                 .to_owned())
         }
     }
+}
+
+/// The instant when so many of so many equal parts of a run are over.
+fn part(end: Time, parts: u32, of: u32) -> Time {
+    let share = f64::from(parts) / f64::from(of);
+    Time::ZERO + desim::Duration::from_seconds_f64(end.as_seconds_f64() * share)
+}
+
+fn seconds(time: Time) -> String {
+    format!("{:.6} s", time.as_seconds_f64())
 }
 
 /// The file of a frame, as many digits as the last one has, and at least three.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
-use lab::{Endings, HostClock, On, Options, Plan, Preparing, Results, ShotFiles, Traces};
+use lab::{Endings, HostClock, On, Options, Plan, Preparing, Results, ShotFiles, Traces, Viewing};
 use multicomputer::quantity::{Dimension, QuantityError, parse};
 use reference::parallel;
 use traces::{Format, Sample};
@@ -57,9 +57,28 @@ pub struct Arguments {
     #[arg(long, value_name = "N", requires = "trace", default_value = "1")]
     #[arg(value_parser = clap::value_parser!(u32).range(1..))]
     trace_sample: u32,
+    /// Runs that the report's viewer shows: auto (all of a few, else for each scene those on the
+    /// fewest and the most processors), all, none, or rows of runs.csv such as 1,8,24
+    #[arg(long, value_name = "RUNS", default_value = "auto", value_parser = viewing)]
+    viewer: Viewing,
     /// Print nothing but what went wrong: no progress, no table
     #[arg(long, short)]
     quiet: bool,
+}
+
+fn viewing(text: &str) -> Result<Viewing, String> {
+    let row = |row: &str| row.parse().ok().filter(|&row| row > 0);
+    match text {
+        "auto" => Ok(Viewing::Automatic),
+        "all" => Ok(Viewing::All),
+        "none" => Ok(Viewing::None),
+        rows => {
+            rows.split(',').map(row).collect::<Option<_>>().map(Viewing::Rows).ok_or_else(|| {
+                "expected auto, all, none, or rows of runs.csv, counted from 1, such as 1,8"
+                    .to_owned()
+            })
+        }
+    }
 }
 
 /// A number of bytes, with its unit.
@@ -107,7 +126,9 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         OnArgument::Simulation => On::Simulation,
         OnArgument::Threads => On::Threads,
     };
-    let options = Options { threads, fresh: arguments.fresh, on, memory, shot_files, traces };
+    let viewing = arguments.viewer.clone();
+    let options =
+        Options { threads, fresh: arguments.fresh, on, memory, shot_files, traces, viewing };
     let progress = Arc::new(Progress::new(Arc::clone(&plan), arguments.quiet));
     let watch = {
         let progress = Arc::clone(&progress);

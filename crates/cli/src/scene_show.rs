@@ -83,6 +83,10 @@ fn numbers(open: &OpenScene, whole: &LocalEnvironment) -> String {
     );
     line("patches", format!("{} before any cut", whole.patches.len()));
     line("cells", format!("{x} x {y} x {z}"));
+    for medium in &scene.media {
+        let [min, max] = [medium.bounds.min, medium.bounds.max].map(world);
+        line("medium", format!("{min} to {max} m absorbs {} /m", medium.absorption));
+    }
     open.warnings.iter().for_each(|warning| line("warning", warning.clone()));
     text
 }

@@ -70,6 +70,9 @@ const OF_THE_NETWORK: [&str; 5] =
 /// The columns after these, where nodes have memory.
 const OF_MEMORY: [&str; 2] = ["memory_high_water", "paging_s"];
 
+/// The column after these, where scenes have participating media.
+const OF_MEDIA: [&str; 1] = ["absorbed_by_media"];
+
 /// What columns there are besides those of every sweep.
 #[derive(Clone, Copy, Debug)]
 pub struct Also {
@@ -81,6 +84,8 @@ pub struct Also {
     pub message_layer: bool,
     /// Those of settings that were found.
     pub accuracy: bool,
+    /// That of participating media.
+    pub media: bool,
     /// Those of errors.
     pub errors: bool,
     /// Those of the display.
@@ -94,12 +99,13 @@ impl Also {
         let network = OF_THE_NETWORK.into_iter().filter(move |_| self.network);
         let memory = OF_MEMORY.into_iter().filter(move |_| self.memory);
         let layer = message_layer::COLUMNS.into_iter().filter(move |_| self.message_layer);
+        let media = OF_MEDIA.into_iter().filter(move |_| self.media);
         let errors = errors::COLUMNS.into_iter().filter(move |_| self.errors);
         let display = display::COLUMNS.into_iter().filter(move |_| self.display);
         let start_up = start_up::COLUMNS.into_iter().filter(move |_| self.start_up);
         let machine = network.chain(memory).chain(layer).chain(display).chain(start_up);
         let accuracy = tuned::COLUMNS.into_iter().filter(move |_| self.accuracy);
-        machine.chain(errors).chain(accuracy)
+        machine.chain(media).chain(errors).chain(accuracy)
     }
 }
 
@@ -141,6 +147,7 @@ pub fn figure(figures: &Figures, column: &str) -> Option<String> {
         "absorbed" => format!("{:.9}", energy.absorbed),
         "unshot" => format!("{:.9}", energy.unshot),
         "in_transit" => format!("{:.9}", energy.in_transit),
+        "absorbed_by_media" => format!("{:.9}", energy.medium),
         "escaped" => format!("{:.9}", energy.escaped),
         "operations" => {
             let counts = figures.work.iter().map(|(name, count)| format!("{name}={count}"));

@@ -1,6 +1,6 @@
 //! The straightforward, automatic decomposition: near-cubic cells, near-cubic environments.
 
-use crate::quantity::Triple;
+use crate::quantity::{Counts, Triple};
 
 /// Most cells along one axis that the automatic grid makes.
 const MOST_CELLS: u32 = 128;
@@ -20,7 +20,7 @@ pub fn automatic_cells(extents: [f64; 3], polygons: usize, cut: Option<Triple>) 
         let wanted = ((edges[axis] / edge).round() as u32).clamp(1, MOST_CELLS);
         cells[axis] = wanted.div_ceil(cut[axis]) * cut[axis];
     }
-    Triple(cells)
+    Counts(cells)
 }
 
 /// The cut into `environments` boxes that are nearest to cubes: of those whose planes share the
@@ -42,7 +42,7 @@ pub fn automatic_cut(
     factorisations(environments)
         .filter(fits)
         .min_by(|a, b| even(b).cmp(&even(a)).then(surface(a).total_cmp(&surface(b))))
-        .map(Triple)
+        .map(Counts)
 }
 
 /// All ways to write `n` as a product of three, in the order of the first two.
@@ -66,21 +66,21 @@ mod tests {
 
     #[test]
     fn cut_planes_share_cells_out_evenly_where_they_can() {
-        let cut = |cells, n| automatic_cut([1.0; 3], n, Some(Triple(cells)));
-        assert_eq!(cut([8, 1, 1], 8), Some(Triple([8, 1, 1])));
-        assert_eq!(cut([3, 4, 4], 4), Some(Triple([1, 2, 2])));
-        assert_eq!(cut([5, 1, 1], 3), Some(Triple([3, 1, 1])));
+        let cut = |cells, n| automatic_cut([1.0; 3], n, Some(Counts(cells)));
+        assert_eq!(cut([8, 1, 1], 8), Some(Counts([8, 1, 1])));
+        assert_eq!(cut([3, 4, 4], 4), Some(Counts([1, 2, 2])));
+        assert_eq!(cut([5, 1, 1], 3), Some(Counts([3, 1, 1])));
         assert_eq!(cut([2, 1, 1], 7), None);
     }
 
     #[test]
     fn cells_are_near_to_cubes_and_divide_by_the_cut() {
-        assert_eq!(automatic_cells([8.0, 4.0, 2.0], 64, None), Triple([8, 4, 2]));
+        assert_eq!(automatic_cells([8.0, 4.0, 2.0], 64, None), Counts([8, 4, 2]));
         assert_eq!(
-            automatic_cells([8.0, 4.0, 2.0], 64, Some(Triple([3, 1, 1]))),
-            Triple([9, 4, 2])
+            automatic_cells([8.0, 4.0, 2.0], 64, Some(Counts([3, 1, 1]))),
+            Counts([9, 4, 2])
         );
-        assert_eq!(automatic_cells([4.0, 4.0, 0.0], 16, None), Triple([4, 4, 1]));
+        assert_eq!(automatic_cells([4.0, 4.0, 0.0], 16, None), Counts([4, 4, 1]));
         assert_eq!(automatic_cells([1e9, 1e-9, 1.0], 1000, None).0[0], MOST_CELLS);
     }
 }

@@ -7,7 +7,10 @@ use std::sync::Arc;
 
 use desim::Time;
 use multicomputer::Machine;
-use radiosity::{Hemisphere, HemisphereKind, Operation, PatchSize, Rgb};
+use radiosity::{
+    DepthBits, Hemisphere, HemisphereKind, Operation, PatchSize, Rgb, VirtualWalls,
+    VirtualWallsError,
+};
 use serde::Serialize;
 use virtwall::{
     Ending, Instant, KeptShots, Outcome, Problem, ProblemError, ProblemOptions, Rules, Run,
@@ -19,6 +22,7 @@ use crate::experiment::{self as fields, Experiment};
 use crate::fault::Fault;
 use crate::figures::{Energy, Figures};
 use crate::find::Found;
+use crate::interfaces::WallMesh;
 use crate::knobs;
 use crate::machine_file::MachineFile;
 use crate::message_layer::{self, MessageLayerFigures};
@@ -89,6 +93,7 @@ pub fn problem(scene: &radiosity::Scene, settings: &Settings) -> Result<Arc<Prob
     };
     let hemisphere = Hemisphere::new(kind, settings.pixels, settings.rotated)
         .map_err(|error| ("hemisphere.pixels", error.to_string()))?;
+    let hemisphere = if settings.by_place { hemisphere.by_place() } else { hemisphere };
     let (reflector, emitter) = (settings.patch_size, settings.emitter_patch_size);
     let options = ProblemOptions {
         patch_size: PatchSize { reflector, emitter },
@@ -96,11 +101,35 @@ pub fn problem(scene: &radiosity::Scene, settings: &Settings) -> Result<Arc<Prob
         cut: settings.cut.0,
         hemisphere,
     };
-    Problem::new(scene.clone(), options).map(Arc::new).map_err(|error| {
+    let problem = Problem::new(scene.clone(), options).map_err(|error| {
         let field = match error {
             ProblemError::Cells(_) => "cells",
             ProblemError::Cut { .. } => "cut",
             ProblemError::PatchSize(..) => "patch_size",
+        };
+        (field, error.to_string())
+    })?;
+    let problem = match settings.mask_bits {
+        Some(bits) => problem.with_depth_bits(depth_bits(bits)?),
+        None => problem,
+    };
+    Ok(Arc::new(match settings.virtual_walls {
+        Some(mesh) => problem.with_walls(walls(mesh)?),
+        None => problem,
+    }))
+}
+
+fn depth_bits(bits: u32) -> Result<DepthBits, WrongField> {
+    DepthBits::of(bits).ok_or_else(|| ("mask_bits", format!("{bits} bits; expected 8 or 16")))
+}
+
+/// The virtual walls of a mesh.
+fn walls(mesh: WallMesh) -> Result<VirtualWalls, WrongField> {
+    VirtualWalls::new(mesh.patches.0, mesh.directions, mesh.rays).map_err(|error| {
+        let field = match error {
+            VirtualWallsError::Patches(..) => "virtual_walls.patches",
+            VirtualWallsError::Directions(_) => "virtual_walls.directions",
+            VirtualWallsError::Rays(..) => "virtual_walls.rays",
         };
         (field, error.to_string())
     })
@@ -212,6 +241,15 @@ pub fn solved(problem: &Problem, unshot: f64) -> (Light, f64) {
     (vec![radiosity], if emitted > 0.0 { left / emitted } else { 0.0 })
 }
 
+/// Runs a point's run to the end on the simulated `machine`: all that it found.
+///
+/// # Errors
+/// Why the run did not end.
+pub fn outcome(run: &Run, point: &Experiment, machine: &Machine) -> Result<Outcome, String> {
+    let found = network::simulate(run, &changed(machine, point), point, None);
+    found.map(|(outcome, _)| outcome).map_err(|error| error.to_string())
+}
+
 /// The outcome's figures; times only if they are virtual.
 fn figures(problem: &Problem, outcome: &Outcome, virtual_time: bool) -> Figures {
     let energy = &outcome.energy;
@@ -235,6 +273,7 @@ fn figures(problem: &Problem, outcome: &Outcome, virtual_time: bool) -> Figures 
             unshot: share(energy.unshot),
             in_transit: share(energy.in_transit),
             escaped: share(energy.escaped),
+            medium: share(energy.medium),
         },
         too_early: match outcome.ending {
             Ending::Agreed => None,
@@ -251,6 +290,12 @@ fn figures(problem: &Problem, outcome: &Outcome, virtual_time: bool) -> Figures 
     }
 }
 
+/// The processor of each environment at one point of an experiment.
+pub fn owners(point: &Experiment, problem: &Problem) -> Vec<usize> {
+    let environments = problem.environments.len() as u32;
+    rules(point).mapping.owners(environments, point.processors as usize)
+}
+
 /// The rules that a point of an experiment sets.
 fn rules(point: &Experiment) -> Rules {
     Rules {
@@ -265,6 +310,7 @@ fn rules(point: &Experiment) -> Rules {
         patch_threshold: point.stop.patch_threshold.value(),
         energy_threshold: point.stop.energy_threshold.value(),
         collect_every: desim::Duration::from_seconds_f64(point.stop.collect_every.value()),
+        wall_threshold: point.virtual_walls.threshold.value(),
         radiosity_updates: point.radiosity_updates,
         merge_masks: point.merge_masks,
         mapping: match point.mapping {

@@ -59,6 +59,12 @@ impl Yardstick {
     }
 }
 
+/// An answer as means over the patches of a problem, W/m².
+pub fn laid_on(answer: &Answer, problem: &Problem) -> Vec<Rgb> {
+    let own = Patches::of_all(&problem.space, &problem.environments);
+    Overlaps::new(&own, &answer.patches).means(&answer.radiosity)
+}
+
 impl ErrorFigures {
     /// The cell of a column.
     pub fn cell(&self, column: &str) -> Option<String> {

@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 
 use crate::accuracy::AccuracyFields;
 use crate::display::DisplayFields;
+use crate::interfaces::{Interfaces, VirtualWalls};
 use crate::knobs::SplitFields;
 use crate::node_memory::NodeMemoryFields;
 use crate::quantity::{Fraction, Length, Period, Triple};
@@ -92,6 +93,17 @@ pub struct Experiment {
     /// The hemisphere of rays over a source.
     #[serde(default)]
     pub hemisphere: Hemisphere,
+    /// What carries light across from one local environment to the next.
+    #[serde(default, skip_serializing_if = "Interfaces::are_masks")]
+    pub interfaces: Interfaces,
+    /// How virtual walls are meshed, where they stand in place of masks.
+    #[serde(default, skip_serializing_if = "VirtualWalls::are_default")]
+    pub virtual_walls: VirtualWalls,
+    /// Bits of an integer of a mask where the scene has media: 8 or 16, 16 by default. Choice C42: the paper
+    /// has such masks in sight and says no more (§3.2).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 8, max = 16))]
+    pub mask_bits: Option<u32>,
     /// Into how many sources a patch is cut, where things near it deserve that.
     #[serde(default, skip_serializing_if = "SplitFields::is_none")]
     pub source_split: SplitFields,
@@ -183,6 +195,10 @@ pub struct Hemisphere {
     /// Whether the directions are turned about the normal by an angle of each source's own, so
     /// that no ray runs along a plane by habit.
     pub rotated: bool,
+    /// Whether the directions lie over each source by its place in the scene, and so turn with the
+    /// scene, rather than by the axes: turned by 90° a scene then has the same light to the last digits.
+    #[serde(skip_serializing_if = "is_false")]
+    pub by_place: bool,
 }
 
 impl Default for Hemisphere {
@@ -192,6 +208,7 @@ impl Default for Hemisphere {
             pixels: 30_976,
             pixels_a_bit: 1,
             rotated: true,
+            by_place: false,
         }
     }
 }
@@ -315,7 +332,7 @@ impl Plot {
 }
 
 /// A field that is false by default is not told.
-fn is_false(value: &bool) -> bool {
+pub fn is_false(value: &bool) -> bool {
     !value
 }
 

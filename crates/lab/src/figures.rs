@@ -30,7 +30,7 @@ pub struct Figures {
     pub control_messages: u64,
     /// Share of their time that nodes compute, 0 to 1; none on real threads.
     pub busy_fraction: Option<f64>,
-    /// |emitted − (absorbed + unshot + in transit + escaped)| / emitted.
+    /// |emitted − (absorbed + unshot + in transit + escaped + by media)| / emitted.
     pub energy_error: f64,
     /// Where the emitted energy is at the end.
     pub energy: Energy,
@@ -72,4 +72,7 @@ pub struct Energy {
     pub in_transit: f64,
     /// Out of the scene.
     pub escaped: f64,
+    /// Absorbed by participating media.
+    #[serde(default)]
+    pub medium: f64,
 }

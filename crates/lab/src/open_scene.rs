@@ -12,6 +12,8 @@ use crate::settings::Settings;
 pub struct OpenScene {
     /// What it shows, if its description says so.
     pub title: Option<String>,
+    /// Its file, for messages.
+    pub label: String,
     /// The geometry.
     pub scene: radiosity::Scene,
     /// What was mended on loading.
@@ -37,11 +39,24 @@ impl OpenScene {
             .map_err(|(_, message)| Fault::of_file(&found.label, message))?;
         Ok(OpenScene {
             title: scene.file.and_then(|file| file.title),
+            label: found.label,
             scene: scene.geometry,
             warnings: scene.warnings,
             patch_size: settings.patch_size,
             emitter_patch_size: settings.emitter_patch_size,
             cells: settings.cells.0,
         })
+    }
+
+    /// The scene, if it has no participating media.
+    ///
+    /// # Errors
+    /// If it has: what is asked for would leave them out.
+    pub fn without_media(self) -> Result<OpenScene, Fault> {
+        if self.scene.media.is_empty() {
+            return Ok(self);
+        }
+        let message = "the scene has \"media\"; expected none, since this would leave them out";
+        Err(Fault::of_file(&self.label, message.to_owned()))
     }
 }

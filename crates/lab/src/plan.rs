@@ -8,7 +8,7 @@ use multicomputer::Machine;
 use serde_json::Value;
 use virtwall::Problem;
 
-use crate::answer::Stored;
+use crate::answer::{Answer, DenseAnswers, Stored};
 use crate::columns::Also;
 use crate::comparison::Comparison;
 use crate::digest::FileDigest;
@@ -63,12 +63,22 @@ impl Plan {
         Also {
             network: self.runs.iter().any(|run| network::tells(machine(run), run.point.network)),
             memory: self.runs.iter().any(|run| machine(run).node_memory.is_some()),
+            media: self.problems.iter().any(|p| !p.problem.space.scene.media.is_empty()),
             message_layer: self.runs.iter().any(|run| message_layer::tells(machine(run))),
             accuracy: self.runs.iter().any(|run| run.tuned.is_some()),
             errors: self.runs.iter().any(|run| run.point.reference.is_some()),
             display: self.runs.iter().any(|run| machine(run).display.is_some()),
             start_up: self.runs.iter().any(|run| machine(run).start_up.is_some()),
         }
+    }
+
+    /// What a run is held against, if anything: a stored answer, or one of `dense`.
+    pub fn answer(&self, run: &Run, dense: &DenseAnswers) -> Option<Arc<Answer>> {
+        run.point.reference.as_ref()?;
+        Some(match run.stored {
+            Some(stored) => Arc::clone(&self.references[stored].answer),
+            None => dense.of(&self.problems[run.problem].problem),
+        })
     }
 }
 

@@ -225,6 +225,10 @@ impl Planner<'_> {
     ) -> Result<Option<usize>, Fault> {
         let Some(name) = draft.typed.reference.as_deref() else { return Ok(None) };
         let refuse = |message| self.fault(draft.point, "reference", message);
+        if !scene.geometry.media.is_empty() {
+            let message = format!("\"{name}\" knows no \"media\"; expected a scene without them");
+            return Err(refuse(message));
+        }
         if name == answer::DENSE {
             let patches = problem.problem.patches();
             let most = answer::MOST_DENSE;

@@ -81,6 +81,20 @@ impl Kind for SizeKind {
     }
 }
 
+/// An absorption of light a metre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AbsorptionKind;
+
+impl Kind for AbsorptionKind {
+    const NAME: &'static str = "an absorption";
+    const DIMENSION: Dimension = Dimension::PerLength;
+    const EXAMPLE: &'static str = "0.5 /m";
+    const RANGE: &'static str = "from 0 /m to 1e9 /m";
+    fn allows(value: f64) -> bool {
+        (0.0..=1e9).contains(&value)
+    }
+}
+
 /// Bytes a second.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RateKind;
@@ -89,7 +103,7 @@ impl Kind for RateKind {
     const NAME: &'static str = "a bandwidth";
     const DIMENSION: Dimension = Dimension::Bandwidth;
     const EXAMPLE: &'static str = "10 Mbit/s";
-    const RANGE: &'static str = "from 1 B/s to 1 TB/s";
+    const RANGE: &'static str = "from 1 B/s to 1000 GB/s";
     fn allows(value: f64) -> bool {
         (1.0..=1e12).contains(&value)
     }
@@ -109,6 +123,8 @@ pub type Length = Quantity<LengthKind>;
 pub type Fraction = Quantity<FractionKind>;
 /// A span of virtual time, in seconds.
 pub type Period = Quantity<PeriodKind>;
+/// An absorption of light, 1/m.
+pub type Absorption = Quantity<AbsorptionKind>;
 /// A size of memory, in bytes.
 pub type Size = Quantity<SizeKind>;
 /// A bandwidth, in bytes a second.
@@ -127,7 +143,7 @@ impl<K: Kind> Quantity<K> {
         Ok(Quantity { text: text.to_owned(), value, kind: PhantomData })
     }
 
-    /// The value in the base unit: metres, seconds, bytes, bytes a second, or a fraction of 1.
+    /// The value in the base unit: metres, 1/m, seconds, bytes, bytes a second, or a fraction of 1.
     pub fn value(&self) -> f64 {
         self.value
     }
@@ -162,23 +178,34 @@ impl<K: Kind> JsonSchema for Quantity<K> {
     }
 }
 
-/// Three counts, one an axis, such as "14x4x1".
+/// Some counts, one an axis, as text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Triple(pub [u32; 3]);
+pub struct Counts<const N: usize>(pub [u32; N]);
 
-impl Triple {
+/// Three counts, such as "14x4x1".
+pub type Triple = Counts<3>;
+/// Two counts, such as "8x8".
+pub type Pair = Counts<2>;
+
+impl<const N: usize> Counts<N> {
+    /// An example, for messages and schemas.
+    const EXAMPLE: &str = if N == 3 { "14x4x1" } else { "8x8" };
+    const NUMBER: &str = if N == 3 { "three" } else { "two" };
+
     /// Reads text such as "14x4x1".
     ///
     /// # Errors
-    /// If the text is not three whole numbers, 1 to 4096 each.
-    pub fn parse(text: &str) -> Result<Triple, String> {
+    /// If the text is not so many whole numbers, 1 to 4096 each.
+    pub fn parse(text: &str) -> Result<Counts<N>, String> {
         let counts: Option<Vec<u32>> = text.split('x').map(|n| n.trim().parse().ok()).collect();
         counts
-            .and_then(|counts| <[u32; 3]>::try_from(counts).ok())
+            .and_then(|counts| <[u32; N]>::try_from(counts).ok())
             .filter(|counts| counts.iter().all(|n| (1..=4096).contains(n)))
-            .map(Triple)
+            .map(Counts)
             .ok_or_else(|| {
-                format!("\"{text}\" is not three counts of 1 to 4096; expected such as \"14x4x1\"")
+                let (number, example) = (Self::NUMBER, Self::EXAMPLE);
+                let counts = format!("{number} counts of 1 to 4096");
+                format!("\"{text}\" is not {counts}; expected such as \"{example}\"")
             })
     }
 
@@ -188,32 +215,31 @@ impl Triple {
     }
 }
 
-impl fmt::Display for Triple {
+impl<const N: usize> fmt::Display for Counts<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [x, y, z] = self.0;
-        write!(f, "{x}x{y}x{z}")
+        f.write_str(&self.0.map(|n| n.to_string()).join("x"))
     }
 }
 
-impl<'de> Deserialize<'de> for Triple {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Triple, D::Error> {
-        Triple::parse(&String::deserialize(deserializer)?).map_err(D::Error::custom)
+impl<'de, const N: usize> Deserialize<'de> for Counts<N> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Counts<N>, D::Error> {
+        Counts::parse(&String::deserialize(deserializer)?).map_err(D::Error::custom)
     }
 }
 
-impl Serialize for Triple {
+impl<const N: usize> Serialize for Counts<N> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(self)
     }
 }
 
-impl JsonSchema for Triple {
+impl<const N: usize> JsonSchema for Counts<N> {
     fn schema_name() -> Cow<'static, str> {
-        "Triple".into()
+        if N == 3 { "Triple" } else { "Pair" }.into()
     }
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        let counts = "^[1-9][0-9]*x[1-9][0-9]*x[1-9][0-9]*$";
-        json_schema!({ "type": "string", "pattern": counts, "examples": ["14x4x1"] })
+        let counts = format!("^{}$", ["[1-9][0-9]*"; N].join("x"));
+        json_schema!({ "type": "string", "pattern": counts, "examples": [Self::EXAMPLE] })
     }
 }

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use serde_json::Value;
+use viewer::Recorded;
 
 use crate::columns;
 use crate::console::{Line, lines};
@@ -17,8 +18,14 @@ const RATIOS: &str = "<p>Ratios are simulated over paper: of speed-ups, and of t
                       processor.</p>\n";
 
 /// The page on the results of `manifest`, whose runs are `runs`, swept over the fields `sweeps`;
-/// `drawings` are its plots, as SVG.
-pub fn html(manifest: &Value, runs: &Table, sweeps: &[String], drawings: &[String]) -> String {
+/// `drawings` are its plots, as SVG, and `recorded` what its viewer shows.
+pub fn html(
+    manifest: &Value,
+    runs: &Table,
+    sweeps: &[String],
+    drawings: &[String],
+    recorded: Option<&Recorded>,
+) -> String {
     let title = escape(&columns::cell(&manifest["title"]));
     let lead = lead(manifest, runs);
     let compared = Summary::of(runs).lines();
@@ -37,11 +44,12 @@ pub fn html(manifest: &Value, runs: &Table, sweeps: &[String], drawings: &[Strin
     let experiment = serde_json::to_string_pretty(&manifest["experiment"]).unwrap_or_default();
     let experiment = escape(&experiment);
     let files = files(manifest);
+    let [viewer_style, answers, data] = recorded.map(viewer_parts).unwrap_or_default();
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width\">\n<title>{title}</title>\n\
-         <style>\n{STYLE}</style>\n</head>\n<body>\n\
-         <h1>{title}</h1>\n{lead}{summary}{warnings}{found}{figures}\
+         <style>\n{STYLE}{viewer_style}</style>\n</head>\n<body>\n\
+         <h1>{title}</h1>\n{lead}{summary}{warnings}{found}{answers}{figures}\
          <h2>Runs</h2>\n{ratios}{grouped}\
          <details><summary>All columns</summary>\n{all}</details>\n\
          <h2>Choices</h2>\n\
@@ -49,9 +57,17 @@ pub fn html(manifest: &Value, runs: &Table, sweeps: &[String], drawings: &[Strin
          <h2>Scenes</h2>\n{problems}\
          <h2>Configuration</h2>\n<p>Every field, defaults filled in. It is an experiment file \
          that gives these results again.</p>\n<pre>{experiment}</pre>\n\
-         <h2>Files</h2>\n{files}\
+         <h2>Files</h2>\n{files}{data}\
          </body>\n</html>\n"
     )
+}
+
+/// The viewer: its style, what stands among the text, and what ends the page.
+fn viewer_parts(recorded: &Recorded) -> [String; 3] {
+    let answers =
+        format!("<h2>What happened, and why</h2>\n{}{}", recorded.answers, viewer::MARKUP);
+    let data = format!("{}{}", recorded.data, viewer::program());
+    [viewer::STYLE.to_owned(), answers, data]
 }
 
 fn lead(manifest: &Value, runs: &Table) -> String {

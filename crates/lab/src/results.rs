@@ -5,6 +5,7 @@ use std::io;
 use std::path::Path;
 
 use serde_json::{Map, Value, json};
+use viewer::Recorded;
 
 use crate::chart;
 use crate::console::table_text;
@@ -18,6 +19,7 @@ use crate::host_clock::HostTimes;
 use crate::host_times;
 use crate::place::Place;
 use crate::plan::Plan;
+use crate::reels;
 use crate::report;
 use crate::runner::Endings;
 use crate::saved::Saved;
@@ -29,6 +31,8 @@ pub struct Results {
     pub table: Table,
     /// Configuration, seed, versions and digests.
     pub manifest: Value,
+    /// What the report's viewer shows, if runs were recorded.
+    recorded: Option<Recorded>,
 }
 
 impl Results {
@@ -39,7 +43,8 @@ impl Results {
     pub fn of(plan: &Plan, endings: &Endings, on: On) -> io::Result<Results> {
         let table = Table::of(plan, endings);
         let manifest = manifest(plan, &table, on)?;
-        Ok(Results { table, manifest })
+        let recorded = reels::recorded(plan, endings);
+        Ok(Results { table, manifest, recorded })
     }
 
     /// Reads a folder of results.
@@ -69,7 +74,10 @@ impl Results {
             }
         }
         let table = Table::from_csv(&bytes).map_err(|error| file::unreadable(&csv, error))?;
-        Ok(Results { table, manifest: document.value })
+        // What was recorded stands nowhere but in the report.
+        let report = fs::read_to_string(folder.join("report.html")).ok();
+        let recorded = report.and_then(|html| Recorded::in_report(&html));
+        Ok(Results { table, manifest: document.value, recorded })
     }
 
     /// Writes all files of results, each whole, and then forgets the runs saved one by one,
@@ -108,7 +116,8 @@ impl Results {
                 drawings.push(svg);
             }
         }
-        let html = report::html(&self.manifest, &self.table, &sweeps, &drawings);
+        let recorded = self.recorded.as_ref();
+        let html = report::html(&self.manifest, &self.table, &sweeps, &drawings, recorded);
         file::write(&out.join("report.html"), html.as_bytes())?;
         names.push("report.html".to_owned());
         Ok(names)

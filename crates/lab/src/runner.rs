@@ -7,7 +7,8 @@ use std::rc::Rc;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use radiosity::Rgb;
-use virtwall::{Helpers, KeptShots, Memory, Recording, SharedObserver, ShotCounts};
+use viewer::Film;
+use virtwall::{Helpers, KeptShots, Memory, SharedObserver, ShotCounts};
 
 use crate::answer::DenseAnswers;
 use crate::engine::{self, On};
@@ -20,6 +21,7 @@ use crate::queue::{Queue, Task};
 use crate::saved::Saved;
 use crate::shot_files::ShotFiles;
 use crate::traces::Traces;
+use crate::viewing::Viewing;
 
 /// How a plan is carried out. None of it changes what a simulated run finds.
 pub struct Options {
@@ -35,6 +37,8 @@ pub struct Options {
     pub shot_files: Option<ShotFiles>,
     /// Traces to be written of simulated runs; runs found finished are simulated again for them.
     pub traces: Option<Traces>,
+    /// Which runs the report's viewer shows.
+    pub viewing: Viewing,
 }
 
 /// Something that happened while a plan is carried out.
@@ -73,6 +77,10 @@ pub struct Endings {
     pub shots: ShotCounts,
     /// Host memory that kept shots took at most, bytes.
     pub shot_bytes: usize,
+    /// What was recorded for the report.
+    pub films: Vec<Option<Film>>,
+    /// Dense solutions that runs were held against.
+    pub dense: DenseAnswers,
 }
 
 /// Carries out all runs of a plan that are not saved in `out`, and saves each there.
@@ -89,8 +97,14 @@ pub fn carry_out(plan: &Plan, out: &Path, options: &Options, watch: Watch) -> io
     let (found, host): (Vec<Option<Ending>>, Vec<Option<HostTimes>>) =
         found.map(|run| run.map(|(figures, host)| (Ok(figures), host)).unzip()).unzip();
     found.iter().flatten().for_each(|_| watch(Event::Found));
+    let filmed = match options.on {
+        On::Simulation => options.viewing.chosen(plan),
+        On::Threads => vec![false; plan.runs.len()],
+    };
 
-    let waiting = (0..plan.runs.len()).filter(|&run| found[run].is_none());
+    // Films are not saved: runs found are made again to be filmed, for that alone.
+    let waiting = (0..plan.runs.len()).filter(|&run| found[run].is_none() || filmed[run]);
+    let queue = Mutex::new(Queue::new(plan, waiting));
     let threads = options.threads.max(1);
     let desk = Desk {
         plan,
@@ -98,11 +112,13 @@ pub fn carry_out(plan: &Plan, out: &Path, options: &Options, watch: Watch) -> io
         watch,
         saved,
         keys,
+        filmed,
         memory: Arc::new(Memory::new(options.memory)),
         helpers: Arc::new(Helpers::of(threads)),
-        queue: Mutex::new(Queue::new(plan, waiting)),
+        queue,
         runs: Mutex::new(found),
         host: Mutex::new(host),
+        films: Mutex::new(plan.runs.iter().map(|_| None).collect()),
         dense: DenseAnswers::default(),
         trouble: Mutex::new(None),
     };
@@ -126,11 +142,14 @@ struct Desk<'a> {
     saved: Saved,
     /// Under which each run is saved.
     keys: Vec<String>,
+    /// Which runs are filmed.
+    filmed: Vec<bool>,
     memory: Arc<Memory>,
     helpers: Arc<Helpers>,
     queue: Mutex<Queue>,
     runs: Mutex<Vec<Option<Ending>>>,
     host: Mutex<Vec<Option<HostTimes>>>,
+    films: Mutex<Vec<Option<Film>>>,
     dense: DenseAnswers,
     trouble: Mutex<Option<io::Error>>,
 }
@@ -149,23 +168,33 @@ impl Desk<'_> {
                 set_up_s: self.plan.problems[task.problem].set_up_s,
                 clock_s: clock.seconds(),
             };
-            let ending = ended.map(|(figures, radiosity)| Figures {
-                errors: self.errors(&task, &radiosity),
-                ..figures
-            });
             let run = task.run;
-            let stored = match &ending {
-                Ok(figures) => self.saved.store(&self.keys[run], figures, host),
-                Err(_) => Ok(()),
-            };
-            if let Err(error) = traced.and(stored) {
+            let found = held(&self.runs)[run].is_some();
+            let noted = if found { Ok(()) } else { self.note(&task, ended, host) };
+            if let Err(error) = traced.and(noted) {
                 *held(&self.trouble) = Some(error);
             }
-            held(&self.runs)[run] = Some(ending);
-            held(&self.host)[run] = Some(host);
             held(&self.queue).done(&task);
-            (self.watch)(Event::Finished { run });
+            if !found {
+                (self.watch)(Event::Finished { run });
+            }
         }
+    }
+
+    /// Saves how a run ended and what it took.
+    fn note(&self, task: &Task, ended: Ended, host: HostTimes) -> io::Result<()> {
+        let ending = ended.map(|(figures, radiosity)| Figures {
+            errors: self.errors(task, &radiosity),
+            ..figures
+        });
+        let run = task.run;
+        let stored = match &ending {
+            Ok(figures) => self.saved.store(&self.keys[run], figures, host),
+            Err(_) => Ok(()),
+        };
+        held(&self.runs)[run] = Some(ending);
+        held(&self.host)[run] = Some(host);
+        stored
     }
 
     /// Where the runs of a problem keep their shots.
@@ -180,18 +209,15 @@ impl Desk<'_> {
         let (shots, shot_bytes) = (held(&self.queue).counts(), self.memory.most());
         let runs = self.runs.into_inner().unwrap_or_else(PoisonError::into_inner);
         let host = self.host.into_inner().unwrap_or_else(PoisonError::into_inner);
-        Endings { runs, host, shots, shot_bytes }
+        let films = self.films.into_inner().unwrap_or_else(PoisonError::into_inner);
+        Endings { runs, host, shots, shot_bytes, films, dense: self.dense }
     }
 
     /// How far a run is from the answer, if there is one; no part of what the run took of the host.
     fn errors(&self, task: &Task, radiosity: &Radiosity) -> Option<ErrorFigures> {
         let run = &self.plan.runs[task.run];
+        let answer = self.plan.answer(run, &self.dense)?;
         let problem = &self.plan.problems[run.problem].problem;
-        run.point.reference.as_ref()?;
-        let answer = match run.stored {
-            Some(stored) => Arc::clone(&self.plan.references[stored].answer),
-            None => self.dense.of(problem),
-        };
         Some(Yardstick::new(&answer, problem).errors(radiosity))
     }
 
@@ -207,14 +233,18 @@ impl Desk<'_> {
         let kept = if point.reuse_shots { &task.kept } else { &nothing_kept };
         let run = engine::run(problem, point, kept, on_shot);
         let on = self.options.on;
-        let Some(traces) = &self.options.traces else {
-            return (engine::carry_out(&run, point, on, machine, *scene_bytes, None), Ok(()));
+        let (traces, filmed) = (&self.options.traces, self.filmed[task.run]);
+        let watched = traces.is_some() || filmed;
+        let film = watched.then(|| Rc::new(RefCell::new(Film::new(problem, run.processors))));
+        let observer = film.clone().map(|film| film as SharedObserver);
+        let ended = engine::carry_out(&run, point, on, machine, *scene_bytes, observer);
+        let Some(film) = film.and_then(Rc::into_inner).map(RefCell::into_inner) else {
+            return (ended, Ok(()));
         };
-        let recording = Rc::new(RefCell::new(Recording::new(problem, run.processors)));
-        let observer: SharedObserver = recording.clone();
-        let ending = engine::carry_out(&run, point, on, machine, *scene_bytes, Some(observer));
         // Of a run that failed, too: there it is needed most.
-        let traced = traces.write(self.plan, task.run, &recording.borrow());
-        (ending, traced)
+        let trace = |traces: &Traces| traces.write(self.plan, task.run, film.recording());
+        let traced = traces.as_ref().map_or(Ok(()), trace);
+        held(&self.films)[task.run] = Some(film).filter(|_| filmed && ended.is_ok());
+        (ended, traced)
     }
 }

@@ -59,6 +59,8 @@ impl Scene {
                 Scene::of_obj(&obj, &label.with_file_name(name), &|path| fs::read(path))?
             }
         };
+        let origin = scene.geometry.origin;
+        scene.geometry.media = file.media.iter().map(|medium| medium.medium(origin)).collect();
         scene.digests.insert(0, FileDigest::of(path, &found.label)?);
         scene.file = Some(file);
         Ok(scene)

@@ -8,6 +8,7 @@ use serde_json::Value;
 
 use crate::document::Document;
 use crate::fault::Fault;
+use crate::medium::MediumFields;
 use crate::place::Place;
 use crate::quantity::{Length, Triple};
 use crate::schema;
@@ -45,6 +46,9 @@ pub struct SceneFile {
     /// For a number of local environments, how many there are along x, y and z.
     #[serde(default)]
     pub cuts: BTreeMap<String, Triple>,
+    /// What absorbs light on its way. Default: nothing.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub media: Vec<MediumFields>,
     /// Where the scene comes from.
     #[serde(default)]
     pub source: Option<String>,
@@ -80,6 +84,11 @@ impl SceneFile {
                 let product = cut.product();
                 let message = format!("\"{cut}\" makes {product} local environments");
                 return Err(document.fault(&place, message + "; expected as many as its key says"));
+            }
+        }
+        for (i, medium) in file.media.iter().enumerate() {
+            if let Some(fault) = medium.fault() {
+                return Err(document.fault(&Place::of("media").item(i), fault));
             }
         }
         if file.obj.is_some() == file.made.is_some() {

@@ -3,7 +3,8 @@
 use serde::Serialize;
 
 use crate::cut::{automatic_cells, automatic_cut};
-use crate::experiment::{Directions, Experiment};
+use crate::experiment::{Directions, Experiment, is_false};
+use crate::interfaces::WallMesh;
 use crate::quantity::Triple;
 use crate::scene::Scene;
 
@@ -37,6 +38,15 @@ pub struct Settings {
     pub pixels: u32,
     /// Whether each source turns them.
     pub rotated: bool,
+    /// Virtual walls in place of masks.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub virtual_walls: Option<WallMesh>,
+    /// Bits of an integer of a mask, if other than usual.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mask_bits: Option<u32>,
+    /// Whether they lie by its place.
+    #[serde(skip_serializing_if = "is_false")]
+    pub by_place: bool,
 }
 
 impl Settings {
@@ -67,6 +77,9 @@ impl Settings {
             directions: point.hemisphere.directions,
             pixels: point.hemisphere.pixels,
             rotated: point.hemisphere.rotated,
+            virtual_walls: WallMesh::of(point)?,
+            mask_bits: point.mask_bits,
+            by_place: point.hemisphere.by_place,
         })
     }
 }

@@ -41,6 +41,9 @@ pub struct StagedRun {
     kept: Arc<KeptShots>,
 }
 
+/// Rays a shot of a scene that is solved by itself.
+const PIXELS: u32 = 4_096;
+
 /// Which run of an experiment.
 pub struct Which<'a> {
     /// `path=value` arguments that are laid over the experiment.
@@ -77,8 +80,9 @@ impl Stage {
         let found = find(Path::new("."), Shelf::Scenes, name).map_err(Fault::complete)?;
         let scene = Scene::load(&found)?;
         let fault = |(_, message)| Fault::of_file(&found.label, message);
-        let settings =
-            Settings::of(&Experiment::of_one_environment(name), &scene).map_err(fault)?;
+        let mut whole = Experiment::of_one_environment(name);
+        whole.hemisphere.pixels = PIXELS;
+        let settings = Settings::of(&whole, &scene).map_err(fault)?;
         let problem = engine::problem(&scene.geometry, &settings).map_err(fault)?;
         let title = scene.file.and_then(|file| file.title).unwrap_or(found.label);
         Ok(Stage { title, run: None, problem })

@@ -23,6 +23,7 @@ fn message(project: &Project, arguments: &[&str]) -> String {
 #[test]
 fn experiments_are_refused_with_place_value_and_expectation() {
     let good = r#""title": "t", "scene": "box", "processors": 1, "local_environments": 4"#;
+    let walled = &format!(r#"{good}, "interfaces": "virtual_walls", "virtual_walls":"#);
     for (text, expected) in [
         ("{", "experiments/x.json:1: EOF while parsing an object"),
         ("[]", "experiments/x.json: found []; expected an object"),
@@ -36,7 +37,7 @@ fn experiments_are_refused_with_place_value_and_expectation() {
             "experiments/x.json:2: processor: unknown field \"processor\", did you mean \
              \"processors\"? (there are: $schema, title, scene, machine, network, network_tolerance, \
              node_memory, processors, local_environments, cut, cells, patch_size, emitter_patch_size, hemisphere, \
-             selection, ties, stop, merge_masks, mapping, radiosity_updates, reuse_shots, seed, compare_with, \
+             interfaces, virtual_walls, mask_bits, selection, ties, stop, merge_masks, mapping, radiosity_updates, reuse_shots, seed, compare_with, \
              plots)",
         ),
         (
@@ -169,6 +170,38 @@ fn experiments_are_refused_with_place_value_and_expectation() {
             "experiments/x.json:1: title: invalid type: sequence, expected a string",
         ),
         (
+            &format!("{{{good}, \"interfaces\": \"walls\"}}"),
+            "experiments/x.json:1: interfaces: unknown variant `walls`, expected `masks` or \
+             `virtual_walls`",
+        ),
+        (
+            &format!("{{{walled} {{\"patches\": \"4x4x4\"}}}}"),
+            "experiments/x.json:1: virtual_walls.patches: \"4x4x4\" is not two counts of 1 to 4096; \
+             expected such as \"8x8\"",
+        ),
+        (
+            &format!("{{{walled} {{\"patches\": \"4x257\"}}}}"),
+            "experiments/x.json:1: virtual_walls.patches: 4 x 257 wall patches; expected 1 to 256 each",
+        ),
+        (
+            &format!("{{{walled} {{\"directions\": [1, 65]}}}}"),
+            "experiments/x.json:1: virtual_walls.directions[1]: 65 x 65 directions; expected 1 to 64",
+        ),
+        (
+            &format!("{{{walled} {{\"rays\": 10}}}}"),
+            "experiments/x.json:1: virtual_walls.rays: 10 rays for 64 bins of directions; expected at \
+             least one each, at most 16777216 in all",
+        ),
+        (
+            &format!("{{{walled} {{\"threshold\": \"0 %\"}}}}"),
+            "experiments/x.json:1: virtual_walls.threshold: 0 %; expected more: virtual walls hand on \
+             ever less, for ever",
+        ),
+        (
+            &format!("{{{good}, \"mask_bits\": 12}}"),
+            "experiments/x.json:1: mask_bits: 12 bits; expected 8 or 16",
+        ),
+        (
             &format!("{{{good}, \"mapping\": []}}"),
             "experiments/x.json:1: mapping: an empty list; expected at least one value to sweep",
         ),
@@ -224,7 +257,27 @@ fn files_that_an_experiment_names_are_refused_at_their_own_places() {
             "scenes/box.json",
             r#"{"obj": "box.obj", "patch_size": "1 m", "cut": "4x1x1"}"#,
             "scenes/box.json:1: cut: unknown field \"cut\", did you mean \"cuts\"? (there are: \
-             $schema, title, obj, made, patch_size, emitter_patch_size, cells, cuts, source)",
+             $schema, title, obj, made, patch_size, emitter_patch_size, cells, cuts, media, source)",
+        ),
+        (
+            "scenes/box.json",
+            r#"{"obj": "box.obj", "patch_size": "1 m", "media":
+                [{"min": [0, 0, 0], "max": [1, 0, 1], "absorption": "1 /m"}]}"#,
+            "scenes/box.json:2: media[0]: a box from [0.0, 0.0, 0.0] to [1.0, 0.0, 1.0]; expected \
+             \"min\" below \"max\"",
+        ),
+        (
+            "scenes/box.json",
+            r#"{"obj": "box.obj", "patch_size": "1 m", "media":
+                [{"min": [0, 0, 0], "max": [1, 1, 1], "absorption": "1 m"}]}"#,
+            "scenes/box.json:2: media[0].absorption: found \"1 m\" with the unit \"m\"; expected an \
+             absorption such as \"0.5 /m\" (units: /m, 1/m)",
+        ),
+        (
+            "scenes/box.json",
+            r#"{"obj": "box.obj", "patch_size": "1 m", "media":
+                [{"min": [0, 0, 0], "max": [1, 1, 1], "absorption": "1 /m"}]}"#,
+            "experiments/x.json:1: reference: \"dense\" knows no \"media\"; expected a scene without them",
         ),
         (
             "scenes/box.json",
@@ -250,7 +303,7 @@ fn files_that_an_experiment_names_are_refused_at_their_own_places() {
     ] {
         let project = Project::new(
             r#"{"title": "t", "scene": "box", "processors": 1, "local_environments": 4,
-                "compare_with": "paper.csv"}"#,
+                "compare_with": "paper.csv", "reference": "dense"}"#,
         );
         project.write("experiments/paper.csv", "scene,processors,time_s,speed_up\n");
         project.write(file, text);

@@ -48,12 +48,13 @@ fn every_field_is_described_and_every_leaf_can_be_swept() {
             "node_memory",
             "display",
             "hemisphere",
+            "virtual_walls",
             "stop",
             "compare_with",
             "plots"
         ]
     );
-    for group in ["node_memory", "display", "hemisphere", "stop"] {
+    for group in ["node_memory", "display", "hemisphere", "virtual_walls", "stop"] {
         for (name, field) in fields[group]["properties"].as_object().unwrap() {
             assert_eq!(field["anyOf"][1]["type"], "array", "{group}.{name}");
         }

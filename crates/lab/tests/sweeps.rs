@@ -10,7 +10,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use common::{Project, SWEEP};
-use lab::{Event, On, Options, Plan, Preparing, Results, carry_out};
+use lab::{Event, On, Options, Plan, Preparing, Results, Viewing, carry_out};
 
 fn options(threads: usize) -> Options {
     Options {
@@ -20,6 +20,7 @@ fn options(threads: usize) -> Options {
         memory: 1 << 30,
         shot_files: None,
         traces: None,
+        viewing: Viewing::None,
     }
 }
 
@@ -93,6 +94,38 @@ fn rows_and_columns_follow_the_file() {
         let expected = time(one.unwrap()) / time(row);
         assert!((table.number(row, "speed_up").unwrap() - expected).abs() < 1e-3);
         assert!(table.number(row, "energy_error").unwrap() <= 1e-9);
+    }
+}
+
+/// Virtual walls are a sweep as any other; what media absorb is a column where there are any, and part of
+/// the balance.
+#[test]
+fn walls_and_media_can_be_swept() {
+    let project = Project::new(
+        r#"{ "title": "t", "scene": ["box", "fog"], "processors": 4, "local_environments": 4,
+            "hemisphere": { "pixels": 256 }, "mask_bits": [8, 16],
+            "interfaces": ["masks", "virtual_walls"],
+            "virtual_walls": { "patches": "2x2", "directions": 4 } }"#,
+    );
+    let fog = r#"{ "obj": "box.obj", "patch_size": "1 m", "cells": "8x4x4", "cuts": {"4": "4x1x1"},
+        "media": [{ "min": [0, 0, 0], "max": [4, 2, 1], "absorption": "0.3 /m" }] }"#;
+    project.write("scenes/fog.json", fog);
+    let (results, ..) = carried_out(&plan(&project), &project.path("out"), &options(1));
+    let table = &results.table;
+    assert_eq!(table.columns.last().unwrap(), "absorbed_by_media");
+    assert_eq!(table.rows.len(), 8);
+    for row in &table.rows {
+        let number = |name| table.number(row, name).unwrap();
+        assert!(number("energy_error") <= 1e-9);
+        let fog = table.cell(row, "scene") == "fog";
+        assert_eq!(number("absorbed_by_media") > 0.05, fog);
+        // Masks of integers take as many bytes as they have bits; walls no more than they hold.
+        if table.cell(row, "interfaces") == "masks" {
+            let bits = if fog { number("mask_bits") } else { 1.0 };
+            assert_eq!(number("message_bytes"), number("messages") * (125.0 + 256.0 * bits / 8.0));
+        } else {
+            assert!(number("message_bytes") <= number("messages") * (12.0 + 2.0 + 16.0 * 12.0));
+        }
     }
 }
 

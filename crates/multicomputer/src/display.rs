@@ -36,6 +36,8 @@ pub struct Display {
 }
 
 /// What happens to updates for which the service node has no room.
+///
+/// Choice C31: Figure 6 of RR-3008 receives and sends one after the other, and says no more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum WhenFull {
@@ -73,6 +75,7 @@ pub(crate) struct DisplayFile {
     /// The processor of the service node, as far as it sends updates on.
     service: ServiceFile,
     /// Room at the service node for updates that were not sent on. One that is longer has it to itself.
+    /// With "back_pressure" it is for all messages, in place of the message layer's buffers.
     service_buffers: Sourced<Quantity<Bytes>>,
     /// What happens when that is full.
     when_full: WhenFull,

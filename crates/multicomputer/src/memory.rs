@@ -72,6 +72,11 @@ impl Residence {
         self.high_water
     }
 
+    /// What the program holds, in memory or paged out.
+    pub(crate) fn held_bytes(&self) -> u64 {
+        self.held_bytes
+    }
+
     /// The program makes a segment.
     pub(crate) fn keep(&mut self, segment: Segment, bytes: u64) {
         self.release(segment);

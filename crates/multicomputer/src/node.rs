@@ -157,6 +157,11 @@ impl<M: 'static> Node<M> {
         self.residence().for_each(|residence| residence.borrow_mut().release(segment));
     }
 
+    /// Bytes that the program keeps, in memory or paged out; 0 where memory is not modelled.
+    pub fn bytes_kept(&self) -> u64 {
+        self.residence().map(|residence| residence.borrow().held_bytes()).sum()
+    }
+
     fn residence(&self) -> impl Iterator<Item = &RefCell<Residence>> {
         self.state().residence.iter()
     }

@@ -35,6 +35,8 @@ pub struct Sent<'a, M> {
     pub to: Rank,
     /// Its length.
     pub bytes: u64,
+    /// Whether a coprocessor sends it, to which the processor has handed it over.
+    pub handed_over: bool,
     /// What it says.
     pub message: &'a M,
 }

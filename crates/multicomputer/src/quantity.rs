@@ -22,6 +22,8 @@ pub enum Dimension {
     Fraction,
     /// Metres, at least zero.
     Length,
+    /// One over metres, at least zero.
+    PerLength,
     /// Cycles of a processor's clock, at least zero.
     Cycles,
 }
@@ -47,6 +49,7 @@ impl Dimension {
             Dimension::Bytes => ("a size", "16 MB"),
             Dimension::Fraction => ("a fraction", "10 %"),
             Dimension::Length => ("a length", "0.25 m"),
+            Dimension::PerLength => ("an absorption", "0.5 /m"),
             Dimension::Cycles => ("a number of cycles", "12 cycles"),
         }
     }
@@ -95,6 +98,7 @@ impl Dimension {
             ],
             Dimension::Fraction => &[("%", Over(100.0))],
             Dimension::Length => &[("m", Times(1.0)), ("cm", Over(100.0)), ("mm", Over(1e3))],
+            Dimension::PerLength => &[("/m", Times(1.0)), ("1/m", Times(1.0))],
             Dimension::Cycles => &[("cycles", Times(1.0)), ("cycle", Times(1.0))],
         }
     }

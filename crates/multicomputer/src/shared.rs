@@ -197,8 +197,9 @@ impl<M: 'static> Shared<M> {
         let ends = (self.nodes[letter.from].place, self.nodes[letter.to].place);
         self.tell(|observer| {
             let Letter { from, to, bytes, ref message } = letter;
-            let number = wires.sent();
-            observer.sent(self.handle.now(), Sent { number, from, to, bytes, message });
+            let (number, handed_over) = (wires.sent(), self.layer.handover.is_some());
+            let sent = Sent { number, from, to, bytes, handed_over, message };
+            observer.sent(self.handle.now(), sent);
         });
         let sender_free = wires.send(self.handle.now(), ends, letter);
         self.expect_news(&wires);

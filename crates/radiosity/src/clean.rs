@@ -7,6 +7,7 @@ use earcut::Earcut;
 use glam::DVec3;
 
 use crate::bounds::Bounds;
+use crate::coplanar::share_planes;
 use crate::scene::{Face, Material, Plane, Polygon, Scene};
 use crate::scene_error::{FARTHEST, SceneError};
 use crate::warning::{WarningKind, Warnings};
@@ -22,6 +23,7 @@ impl Scene {
     /// are one. Faces that are not planar (to 1e-6 of their size) or not convex are cut into
     /// triangles; those without area, and those that repeat an earlier face's corners on the same
     /// side, are dropped. A face of a two-sided material stands in the scene twice, back to back.
+    /// Polygons in one plane share it to the bit.
     ///
     /// # Errors
     /// An impossible material, a corner that is not finite or beyond 1e12 m, an index out of range,
@@ -56,9 +58,11 @@ impl Scene {
         if polygons.is_empty() {
             return Err(SceneError::NoSurface { faces: faces.len() });
         }
+        share_planes(&mut polygons, tolerance);
         let vertices = keep_used(&welded, &mut polygons);
         let bounds = Bounds::of(vertices.iter().copied());
-        Ok((Scene { vertices, polygons, materials, objects, origin, bounds }, warnings))
+        let media = Vec::new();
+        Ok((Scene { vertices, polygons, materials, objects, origin, bounds, media }, warnings))
     }
 }
 

@@ -38,6 +38,8 @@ pub struct Hemisphere {
     pub(crate) sums: Option<Vec<f64>>,
     /// Whether the set is turned about the normal by an angle of the source's own.
     pub rotated: bool,
+    /// Whether it is laid by the source's place rather than by the axes: see [`Hemisphere::by_place`].
+    by_place: bool,
 }
 
 /// A number of pixels that a kind of hemisphere cannot have.
@@ -85,8 +87,22 @@ impl Hemisphere {
                 hemicube(side)
             }
         };
+        Ok(Hemisphere::of(&directions, &weights, rotated))
+    }
+
+    /// Bin `bin` of the `n` × `n` of a concentric square of directions, with `side` × `side` rays.
+    pub(crate) fn bin_of_square(n: u32, bin: u32, side: u32) -> Hemisphere {
+        let row =
+            |j: u32| (0..side).map(move |i| (bin / n * side + j) * n * side + bin % n * side + i);
+        let pixels = (0..side).flat_map(row);
+        let (directions, weights) = equal(pixels.map(|i| concentric_pixel(n * side, i)).collect());
+        Hemisphere::of(&directions, &weights, false)
+    }
+
+    /// A hemisphere of these directions, put in order.
+    fn of(directions: &[DVec3], weights: &[f64], rotated: bool) -> Hemisphere {
         let mut order: Vec<u32> = (0..directions.len() as u32).collect();
-        group(&mut order, &directions);
+        group(&mut order, directions);
         let directions: Vec<DVec3> = order.iter().map(|&i| directions[i as usize]).collect();
         let weights: Vec<f64> = order.iter().map(|&i| weights[i as usize]).collect();
         let sums = weights.iter().all(|&weight| weight == weights[0]).then(|| {
@@ -97,7 +113,14 @@ impl Hemisphere {
             };
             std::iter::once(0.0).chain(weights.iter().map(add)).collect()
         });
-        Ok(Hemisphere { bundles: Bundles::new(&directions), directions, weights, sums, rotated })
+        let bundles = Bundles::new(&directions);
+        Hemisphere { bundles, directions, weights, sums, rotated, by_place: false }
+    }
+
+    /// The same directions laid over each source by where it lies from the scene's centre, so that they
+    /// turn with the scene: turned by 90° it gets the same rays, turned with it.
+    pub fn by_place(self) -> Hemisphere {
+        Hemisphere { by_place: true, ..self }
     }
 
     /// Number of pixels.
@@ -116,25 +139,43 @@ impl Hemisphere {
     /// Tangent, bitangent and normal over a source with its centre at `centre`. Whoever knows the
     /// centre and the normal, exactly, gets the same frame: a mask's receiver casts the same rays.
     pub fn frame(&self, centre: DVec3, normal: DVec3) -> [DVec3; 3] {
-        let least = if normal.x.abs() <= normal.y.abs() && normal.x.abs() <= normal.z.abs() {
-            DVec3::X
-        } else if normal.y.abs() <= normal.z.abs() {
-            DVec3::Y
+        let outwards = centre - normal * centre.dot(normal);
+        let tangent = if self.by_place && outwards.length() > 1e-6 * centre.length() {
+            outwards.normalize()
         } else {
-            DVec3::Z
+            across(normal)
         };
-        let tangent = least.cross(normal).normalize();
         let bitangent = normal.cross(tangent);
-        let (cos, sin) = if self.rotated { turn(centre) } else { (1.0, 0.0) };
+        let (cos, sin) = match (self.rotated, self.by_place) {
+            (false, _) => (1.0, 0.0),
+            (true, false) => turn(&centre.to_array()),
+            // What does not change when the scene is turned, rounding apart.
+            (true, true) => {
+                let lengths = [centre.length(), centre.dot(normal)];
+                turn(&lengths.map(|length| f64::from(length as f32)))
+            }
+        };
         [tangent * cos + bitangent * sin, bitangent * cos - tangent * sin, normal]
     }
 }
 
-/// Cosine and sine of an angle derived from a source's centre: the direction of a pseudo-random
+/// A unit vector across a normal, by the axis that is least along it.
+fn across(normal: DVec3) -> DVec3 {
+    let least = if normal.x.abs() <= normal.y.abs() && normal.x.abs() <= normal.z.abs() {
+        DVec3::X
+    } else if normal.y.abs() <= normal.z.abs() {
+        DVec3::Y
+    } else {
+        DVec3::Z
+    };
+    least.cross(normal).normalize()
+}
+
+/// Cosine and sine of an angle derived from a source's coordinates: the direction of a pseudo-random
 /// point of the unit disc, so that only exactly rounded operations are needed and every machine
 /// finds the same bits.
-fn turn(centre: DVec3) -> (f64, f64) {
-    let mut state = centre.to_array().iter().fold(0x9e37_79b9_7f4a_7c15, |state, coordinate| {
+fn turn(coordinates: &[f64]) -> (f64, f64) {
+    let mut state = coordinates.iter().fold(0x9e37_79b9_7f4a_7c15, |state, coordinate| {
         scramble(state ^ (coordinate + 0.0).to_bits())
     });
     loop {
@@ -209,18 +250,34 @@ fn polar(pixels: u32) -> Vec<DVec3> {
 }
 
 fn concentric(side: u32) -> Vec<DVec3> {
+    (0..side * side).map(|i| concentric_pixel(side, i)).collect()
+}
+
+fn concentric_pixel(side: u32, i: u32) -> DVec3 {
     let at = |i: u32| 2.0 * (f64::from(i) + 0.5) / f64::from(side) - 1.0;
-    let pixel = |i: u32| {
-        let (x, y) = (at(i % side), at(i / side));
-        if x == 0.0 && y == 0.0 {
-            DVec3::Z
-        } else if x.abs() > y.abs() {
-            lifted(x, PI / 4.0 * (y / x))
-        } else {
-            lifted(y, PI / 2.0 - PI / 4.0 * (x / y))
-        }
-    };
-    (0..side * side).map(pixel).collect()
+    let (x, y) = (at(i % side), at(i / side));
+    if x == 0.0 && y == 0.0 {
+        DVec3::Z
+    } else if x.abs() > y.abs() {
+        lifted(x, PI / 4.0 * (y / x))
+    } else {
+        lifted(y, PI / 2.0 - PI / 4.0 * (x / y))
+    }
+}
+
+/// Where the concentric map has a direction, given by its two components across the normal, from: a point
+/// of the square from -1 to 1.
+pub(crate) fn unlifted(x: f64, y: f64) -> [f64; 2] {
+    let r = (x * x + y * y).sqrt();
+    if r == 0.0 {
+        [0.0; 2]
+    } else if x.abs() > y.abs() {
+        let r = r.copysign(x);
+        [r, r * libm::atan(y / x) * 4.0 / PI]
+    } else {
+        let r = r.copysign(y);
+        [r * libm::atan(x / y) * 4.0 / PI, r]
+    }
 }
 
 /// Top face of side × side pixels, then four half-faces (Cohen and Greenberg 1985).
@@ -296,6 +353,21 @@ mod tests {
                 assert!(a.dot(b).abs() < 1e-15);
             }
             assert!(t.cross(b).distance(n) < 1e-15);
+        }
+    }
+
+    /// By place, frames turn with the scene about its centre.
+    #[test]
+    fn frames_by_place_turn_with_the_scene() {
+        let hemisphere = Hemisphere::new(HemisphereKind::Fibonacci, 16, true).unwrap().by_place();
+        let turned = |p: DVec3| DVec3::new(-p.y, p.x, p.z);
+        for (centre, normal) in [([0.3, 1.7, -0.2], DVec3::Z), ([1.1, -0.4, 0.9], -DVec3::X)] {
+            let centre = DVec3::from(centre);
+            let frame = hemisphere.frame(centre, normal);
+            let there = hemisphere.frame(turned(centre), turned(normal));
+            for (here, there) in frame.into_iter().zip(there) {
+                assert!(turned(here).distance(there) < 1e-15, "{here} {there}");
+            }
         }
     }
 

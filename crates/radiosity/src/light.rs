@@ -16,6 +16,8 @@ pub struct Light {
     pub absorbed: Rgb,
     /// Power that left the scene from here, W.
     pub escaped: Rgb,
+    /// Power absorbed by participating media, W.
+    pub medium: Rgb,
     reflectance: Vec<Rgb>,
 }
 
@@ -32,6 +34,7 @@ impl Light {
             unshot: emitted,
             absorbed: Rgb::ZERO,
             escaped: Rgb::ZERO,
+            medium: Rgb::ZERO,
             reflectance: reflectance.collect(),
         }
     }
@@ -85,6 +88,7 @@ impl Light {
         }
         self.absorbed += source.power * shot.backs;
         self.escaped += source.power * shot.escaped;
+        self.medium += source.power * shot.medium;
         all_reflected
     }
 

@@ -2,7 +2,10 @@
 
 use std::borrow::Cow;
 
-/// One bit a pixel of the hemisphere; true means that the source is still visible through it.
+use crate::media::DepthBits;
+
+/// One bit a pixel of the hemisphere; true means that the source is still visible through it. In a scene
+/// with participating media one integer a pixel: how much they dim what is visible.
 #[doc(alias = "Figure 2")]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mask {
@@ -10,31 +13,100 @@ pub struct Mask {
     pixels: u32,
     /// Consecutive pixels that are alike: a bit each travels.
     pixels_a_bit: u32,
+    depths: Option<Box<Depths>>,
+}
+
+/// Steps of optical depth by pixel.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Depths {
+    bits: DepthBits,
+    steps: Vec<u16>,
 }
 
 impl Mask {
     /// A mask with every pixel true: what a local source starts with (§3.3).
     pub fn all(pixels: u32) -> Mask {
-        let mut mask = Mask { words: vec![u64::MAX; words_for(pixels)], pixels, pixels_a_bit: 1 };
+        let mut mask = Mask::of(vec![u64::MAX; words_for(pixels)], pixels);
         mask.clear_padding();
         mask
     }
 
     /// A mask with every pixel false.
     pub fn none(pixels: u32) -> Mask {
-        Mask { words: vec![0; words_for(pixels)], pixels, pixels_a_bit: 1 }
+        Mask::of(vec![0; words_for(pixels)], pixels)
     }
 
     /// A mask from its words, lowest pixel in the lowest bit of the first word; `None` when their
     /// number does not fit the pixels or a bit beyond the last pixel is set.
     pub fn from_words(words: Vec<u64>, pixels: u32) -> Option<Mask> {
-        let mask = Mask { words, pixels, pixels_a_bit: 1 };
+        let mask = Mask::of(words, pixels);
         if mask.words.len() != words_for(pixels) {
             return None;
         }
         let mut cleared = mask.clone();
         cleared.clear_padding();
         (cleared == mask).then_some(mask)
+    }
+
+    /// A mask from its integers; `None` when one is beyond those of so many bits.
+    pub fn from_steps(steps: Vec<u16>, bits: DepthBits) -> Option<Mask> {
+        if steps.iter().any(|&steps| steps > bits.hidden()) {
+            return None;
+        }
+        let mut mask = Mask::none(steps.len() as u32);
+        let visible = (0u32..).zip(&steps).filter(|&(_, &steps)| steps < bits.hidden());
+        visible.for_each(|(pixel, _)| mask.set(pixel));
+        mask.depths = Some(Box::new(Depths { bits, steps }));
+        Some(mask)
+    }
+
+    fn of(words: Vec<u64>, pixels: u32) -> Mask {
+        Mask { words, pixels, pixels_a_bit: 1, depths: None }
+    }
+
+    /// The same with an integer a pixel, for media; nothing has dimmed it so far.
+    pub fn with_depths(self, bits: DepthBits) -> Mask {
+        let steps = |pixel| if self.get(pixel) { 0 } else { bits.hidden() };
+        let steps = (0..self.pixels).map(steps).collect();
+        Mask { depths: Some(Box::new(Depths { bits, steps })), ..self }
+    }
+
+    /// The integers by pixel, if it has any, and their size.
+    pub fn steps(&self) -> Option<(&[u16], DepthBits)> {
+        self.depths.as_ref().map(|depths| (depths.steps.as_slice(), depths.bits))
+    }
+
+    /// The size of its integers, if it has any.
+    pub fn depth_bits(&self) -> Option<DepthBits> {
+        self.depths.as_ref().map(|depths| depths.bits)
+    }
+
+    /// Bits that a pixel takes.
+    pub fn bits_a_pixel(&self) -> u32 {
+        self.depth_bits().map_or(1, DepthBits::bits)
+    }
+
+    /// Optical depth that light through a true pixel has come through.
+    pub fn depth(&self, pixel: u32) -> f64 {
+        let depth = |depths: &Depths| f64::from(depths.steps[pixel as usize]) * depths.bits.step();
+        self.depths.as_deref().map_or(0.0, depth)
+    }
+
+    /// What is left of the light through a true pixel.
+    pub fn transmittance(&self, pixel: u32) -> f64 {
+        let left = |depths: &Depths| depths.bits.transmittance(depths.steps[pixel as usize]);
+        self.depths.as_deref().map_or(1.0, left)
+    }
+
+    /// Make a pixel true with the steps nearest to an optical depth, and tell what is then left of its
+    /// light: nothing, and the pixel stays false, where there are no such steps.
+    pub(crate) fn set_depth(&mut self, pixel: u32, depth: f64) -> f64 {
+        if let Some(depths) = &mut self.depths {
+            let Some(steps) = depths.bits.steps(depth) else { return 0.0 };
+            depths.steps[pixel as usize] = steps;
+        }
+        self.set(pixel);
+        self.transmittance(pixel)
     }
 
     /// The mask with one bit for each `pixels_a_bit` consecutive pixels, which are neighbours on the
@@ -44,6 +116,9 @@ impl Mask {
     /// count as true; where no bit would be true, the first of those with most true pixels is. So the
     /// mask has about as many true pixels as before.
     pub fn coarsened(&self, pixels_a_bit: u32) -> Mask {
+        if pixels_a_bit == 1 {
+            return self.clone();
+        }
         let mut coarse = Mask { pixels_a_bit, ..Mask::none(self.pixels) };
         let all = Mask::all(self.pixels);
         let mut fullest = (0, 0, 0);
@@ -150,8 +225,13 @@ impl Mask {
         })
     }
 
-    /// Make true what is true in the other mask as well.
+    /// Make true what is true in the other mask as well; of two integers the lesser is left.
     pub fn merge(&mut self, other: &Mask) {
+        if let (Some(mine), Some(theirs)) = (&mut self.depths, &other.depths) {
+            for (mine, theirs) in mine.steps.iter_mut().zip(&theirs.steps) {
+                *mine = (*mine).min(*theirs);
+            }
+        }
         for (mine, theirs) in self.words.iter_mut().zip(&other.words) {
             *mine |= theirs;
         }
@@ -187,6 +267,26 @@ mod tests {
         assert_eq!(mask.ones().collect::<Vec<_>>(), [0, 63, 64, 129]);
         assert_eq!(mask.count(), 4);
         assert_eq!(Mask::all(130).count(), 130);
+    }
+
+    #[test]
+    fn integers_are_rounded_and_run_out() {
+        for (bits, most) in [(DepthBits::Eight, 7.9), (DepthBits::Sixteen, 15.99)] {
+            let mut mask = Mask::none(3).with_depths(bits);
+            for depth in [0.0, 0.3, 1.0, most] {
+                let left = mask.set_depth(1, depth);
+                let off = (left.ln() + depth).abs();
+                assert!(off <= bits.step() * 0.500_001, "{bits:?} {depth}: {off}");
+                assert_eq!((mask.transmittance(1), mask.count()), (left, 1));
+            }
+            assert_eq!((mask.set_depth(2, 17.0), mask.count()), (0.0, 1));
+            let (steps, bits) = mask.steps().unwrap();
+            assert_eq!(Mask::from_steps(steps.to_vec(), bits), Some(mask.clone()));
+            let mut merged = Mask::none(3).with_depths(bits);
+            merged.merge(&mask);
+            assert_eq!(merged, mask);
+        }
+        assert_eq!(Mask::from_steps(vec![256], DepthBits::Eight), None);
     }
 
     #[test]

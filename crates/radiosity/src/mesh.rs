@@ -6,14 +6,15 @@ use glam::DVec3;
 
 use crate::bounds::Bounds;
 use crate::environment::LocalEnvironment;
-use crate::scene::{Polygon, Rgb};
+use crate::scene::{Polygon, Rgb, Scene};
 use crate::space::Space;
+use crate::stitch::Seams;
 
 /// How radiosity runs over a patch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Shading {
     /// A corner has the mean, by area, of the patches that meet there, in one plane of one object
-    /// and of one material; the middle of a patch has the mean of its corners.
+    /// and of one material; the middle of a patch has the mean along its edges.
     #[default]
     Smooth,
     /// Every patch has its own radiosity all over.
@@ -39,7 +40,7 @@ impl<'a> Mesh<'a> {
         let scene = &space.scene;
         let mut vertices = Vertices::new(STEP * scene.bounds.size().length(), shading);
         let mut homes = vec![Vec::new(); scene.polygons.len()];
-        let mut fans = Vec::with_capacity(environments.len());
+        let mut fans: Vec<Vec<Fan>> = Vec::with_capacity(environments.len());
         for (number, environment) in (0..).zip(environments) {
             let bounds = space.grid.bounds(&environment.block).widened(scene.tolerance());
             let mut polygons: Vec<u32> = environment.patches.iter().map(|p| p.polygon).collect();
@@ -52,6 +53,7 @@ impl<'a> Mesh<'a> {
             let polygons = environment.patches.iter().map(|patch| patch.polygon);
             fans.push((0..).zip(polygons).map(fan).collect());
         }
+        vertices.stitch(&mut fans, environments, scene);
         Mesh { environments, fans, vertices, homes }
     }
 
@@ -84,9 +86,14 @@ impl<'a> Mesh<'a> {
         }
         let mut light: Vec<Rgb> = sums.iter().map(|&(sum, area)| sum / area).collect();
         for fan in self.fans.iter().flatten() {
-            let Some((&middle, corners)) = fan.split_first() else { continue };
-            let sum: Rgb = corners.iter().map(|&corner| light[corner as usize]).sum();
-            light[middle as usize] = sum / corners.len() as f64;
+            let (mut sum, mut length) = (Rgb::ZERO, 0.0);
+            for [_, from, to] in triangles(fan) {
+                let [from, to] = [from as usize, to as usize];
+                let edge = self.vertices.positions[from].distance(self.vertices.positions[to]);
+                sum += (light[from] + light[to]) / 2.0 * edge;
+                length += edge;
+            }
+            fan.first().into_iter().for_each(|&middle| light[middle as usize] = sum / length);
         }
         light
     }
@@ -132,9 +139,9 @@ fn barycentric([a, b, c]: [DVec3; 3], point: DVec3) -> Option<DVec3> {
 /// different sides of a step, where shading then has a seam.
 const STEP: f64 = 1e-7;
 
-/// What the patches that share a corner have in common, object, material and the direction of their
-/// plane in steps, and where in steps the corner is: with these one point lies in one plane.
-type Corner = (u32, u32, [i64; 3], [i64; 3]);
+/// What patches that share corners have in common: object, material, and in steps the direction of
+/// their plane. With these one point lies in one plane.
+type Group = (u32, u32, [i64; 3]);
 
 /// Vertices, each known by what it is the corner of.
 struct Vertices {
@@ -142,7 +149,8 @@ struct Vertices {
     normals: Vec<DVec3>,
     /// Length of a step, metres.
     step: f64,
-    shared: Option<BTreeMap<Corner, u32>>,
+    /// By group and place, in steps.
+    shared: Option<BTreeMap<(Group, [i64; 3]), u32>>,
 }
 
 impl Vertices {
@@ -160,9 +168,7 @@ impl Vertices {
         let middle = outline.iter().sum::<DVec3>() / outline.len() as f64;
         let mut fan = vec![self.add(middle, normal)];
         for &corner in outline {
-            let steps = |v: DVec3| v.to_array().map(|c| c.round() as i64);
-            let place = steps(corner / self.step);
-            let key = (polygon.object, polygon.material, steps(normal / STEP), place);
+            let key = (group(polygon), steps(corner / self.step));
             let known = self.shared.as_ref().and_then(|shared| shared.get(&key)).copied();
             let vertex = known.unwrap_or_else(|| self.add(corner, normal));
             if let Some(shared) = &mut self.shared {
@@ -173,9 +179,37 @@ impl Vertices {
         fan
     }
 
+    /// Makes vertices that lie on edges of patches corners of these, too.
+    fn stitch(&self, fans: &mut [Vec<Fan>], environments: &[LocalEnvironment], scene: &Scene) {
+        let mut groups: BTreeMap<Group, Vec<u32>> = BTreeMap::new();
+        for ((group, _), &vertex) in self.shared.iter().flatten() {
+            groups.entry(*group).or_default().push(vertex);
+        }
+        let seams =
+            |(group, vertices): (_, Vec<u32>)| (group, Seams::of(&vertices, &self.positions));
+        let seams: BTreeMap<Group, Seams> = groups.into_iter().map(seams).collect();
+        let patches = environments.iter().flat_map(|environment| &environment.patches);
+        for (patch, fan) in patches.zip(fans.iter_mut().flatten()) {
+            let group = group(&scene.polygons[patch.polygon as usize]);
+            if let (Some(seams), Some(corners)) = (seams.get(&group), fan.get(1..)) {
+                let corners = seams.stitch(corners, &self.positions, self.step);
+                fan.truncate(1);
+                fan.extend(corners);
+            }
+        }
+    }
+
     fn add(&mut self, position: DVec3, normal: DVec3) -> u32 {
         self.positions.push(position);
         self.normals.push(normal);
         self.positions.len() as u32 - 1
     }
+}
+
+fn group(polygon: &Polygon) -> Group {
+    (polygon.object, polygon.material, steps(polygon.plane.normal / STEP))
+}
+
+fn steps(vector: DVec3) -> [i64; 3] {
+    vector.to_array().map(|coordinate| coordinate.round() as i64)
 }

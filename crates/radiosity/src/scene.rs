@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::bounds::Bounds;
+use crate::media::Medium;
 
 /// Red, green, blue: a reflectance (0 to 1), a radiosity (W/m²) or a power (W), as the context says.
 pub type Rgb = DVec3;
@@ -80,6 +81,8 @@ pub struct Scene {
     pub origin: DVec3,
     /// Local bounds.
     pub bounds: Bounds,
+    /// What absorbs light on its way.
+    pub media: Vec<Medium>,
 }
 
 impl Scene {

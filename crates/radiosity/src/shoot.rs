@@ -4,6 +4,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch};
 
 use crate::bundle::{Rays, WIDTH};
+use crate::dimmed::shoot_dimmed;
 use crate::environment::LocalEnvironment;
 use crate::form_factors::FormFactors;
 use crate::grid::Side;
@@ -27,7 +28,8 @@ use crate::work::Operation;
 ///
 /// The rays of a word of the mask go together: first they find what they hit, then they walk through
 /// the grid to count what the virtual processor would have done. Where polygons are so small that a
-/// bundle meets very many, its rays go one by one. [`shoot_plainly`] is the obvious twin.
+/// bundle meets very many, its rays go one by one. [`shoot_plainly`] is the obvious twin. In a scene with
+/// participating media all rays go one by one.
 ///
 /// [`shoot_plainly`]: crate::shoot_plainly
 #[doc(alias = "compute_illumination")]
@@ -38,6 +40,9 @@ pub fn shoot(
     source: &Source,
     mask: &Mask,
 ) -> Shot {
+    if !space.scene.media.is_empty() {
+        return shoot_dimmed(space, environment, hemisphere, source, mask);
+    }
     dispatch!(Level::new(), simd => shoot_on(simd, space, environment, hemisphere, source, mask))
 }
 

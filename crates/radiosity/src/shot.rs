@@ -38,6 +38,8 @@ pub struct Shot {
     pub backs: f64,
     /// Form factor of what left the scene.
     pub escaped: f64,
+    /// Form factor of what participating media absorbed.
+    pub medium: f64,
     /// For each side the pixels that leave through it, where there are any ([`Side::index`]).
     pub outgoing: [Option<Outgoing>; 6],
     /// Operations counted.
@@ -52,7 +54,7 @@ pub struct Outgoing {
     /// Choice C12: §4.2.3 says "hits the plane". Taken of the unbounded plane, one pixel would reach
     /// several neighbours and its energy would double.
     pub mask: Mask,
-    /// Their form factor together.
+    /// Their form factor together, dimmed by participating media.
     pub form_factor: f64,
 }
 
@@ -110,6 +112,7 @@ impl<'a> Tally<'a> {
             hits: hits.filter(|&(_, form_factor)| form_factor > 0.0).collect(),
             backs: form_factors.of(patches),
             escaped: form_factors.of(patches + 1),
+            medium: 0.0,
             outgoing: std::array::from_fn(|side| {
                 let form_factor = form_factors.of(patches + 2 + side);
                 outgoing[side].take().map(|mask| Outgoing { mask, form_factor })
@@ -124,10 +127,10 @@ impl<'a> Tally<'a> {
 /// Count what §4.2.3 does apart from casting: every pixel of the mask is looked at, each neighbour
 /// gets a copy of the mask, each pixel still true is tested against that neighbour's plane, and the
 /// radiosities of all local patches are updated.
-fn count_passes(shot: &mut Shot, environment: &LocalEnvironment, mask: &Mask) {
+pub(crate) fn count_passes(shot: &mut Shot, environment: &LocalEnvironment, mask: &Mask) {
     let left: u64 = shot.outgoing.iter().flatten().map(|o| u64::from(o.mask.count())).sum();
     let neighbours = Side::ALL.iter().filter(|&&side| environment.has_neighbour(side)).count();
-    let words = mask.words().len() as u64;
+    let words = mask.words().len() as u64 * u64::from(mask.bits_a_pixel());
     shot.work.count(Operation::PixelTest, u64::from(mask.pixels()));
     shot.work.count(Operation::WordCopied, words * neighbours as u64);
     shot.work.count(Operation::PlaneTest, left * neighbours as u64);

@@ -91,6 +91,30 @@ fn flat_patches_have_their_own_radiosity_all_over() {
     }
 }
 
+/// Two coplanar polygons whose patches do not fit: along their common edge both show the same.
+#[test]
+fn no_seam_shows_where_patches_of_different_sizes_meet() {
+    let rectangle = |[x0, x1]: [f64; 2], height: f64| {
+        let points = [[x0, 0.0], [x1, 0.0], [x1, height], [x0, height]];
+        let points = points.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec();
+        Face { points, material: 0, object: 0 }
+    };
+    let materials = scene().materials;
+    let faces = [rectangle([0.0, 2.0], 2.0), rectangle([2.0, 3.0], 1.5)];
+    let scene = Scene::new(&faces, materials, vec!["floor".to_owned()]).unwrap().0;
+    let space = Space::new(scene, [1, 1, 1]);
+    let size = PatchSize { reflector: 1.0, emitter: 1.0 };
+    let environments = [LocalEnvironment::new(&space, space.grid.whole(), size)];
+    let mesh = Mesh::new(&space, &environments, Shading::Smooth);
+    let lit = mesh.light(&light(&environments, |at| Rgb::new(at.x * at.y, at.y, 1.0)));
+    for share in 1..30 {
+        // The edge is at x = 2 and y from 0 to 1.5; local coordinates are from the centre.
+        let at = DVec3::new(0.5, 0.05 * f64::from(share) - 1.0, 0.0);
+        let [left, right] = [0, 1].map(|polygon| mesh.radiosity_at(&lit, polygon, at));
+        assert!(left.distance(right) < 1e-9, "{at}: {left} {right}");
+    }
+}
+
 /// sRGB's transfer function, backwards.
 fn linear(code: u8) -> f64 {
     let encoded = f64::from(code) / 255.0;

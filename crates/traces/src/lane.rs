@@ -60,10 +60,12 @@ impl<'a> Lane<'a> {
         let read_at = |number: usize| self.messages[number].read.unwrap_or(Time::MAX);
         let mut sent = Pile { rest: &self.mail.sent, time: sent_at, alone: Vec::new() };
         let mut read = Pile { rest: &self.mail.read, time: read_at, alone: Vec::new() };
+        // On a machine all nodes have coprocessors, or none has.
+        let handed_over = self.messages.first().is_some_and(|message| message.handed_over);
         let mut marks = Vec::new();
         for Span { activity, from, to } in self.node.spans() {
             let mine = match activity {
-                Activity::Send(_) => sent.take(from, 1),
+                Activity::Send(_) if !handed_over => sent.take(from, 1),
                 Activity::Receive => read.take(from, usize::MAX),
                 _ => &[],
             };

@@ -2,7 +2,7 @@
 //!
 //! de Oliveira Stein, Chassin de Kergommeaux, Mounié: Pajé trace file format, 2003.
 
-use std::fmt::Write as _;
+use std::fmt::{self, Write as _};
 
 use desim::Time;
 use virtwall::{Activity, Recording};
@@ -69,7 +69,7 @@ const DESTROY_CONTAINER: usize = 10;
 const ENDED: &str = "z";
 
 /// The types, by aliases: run R, node N; state S, queue Q, unshot power U, power in transit T, message
-/// L. The run itself is r, the nodes are their ranks.
+/// L. The run itself is r, the nodes are their ranks plus 1: 0 is no name for a container.
 const TYPES: &str = "0 R 0 Run
 0 N R Node
 1 S N Activity
@@ -87,21 +87,21 @@ pub(crate) fn encode(recording: &Recording, title: &str, sample: Sample) -> Vec<
     let _ = writeln!(text, "{CREATE_CONTAINER} 0 r R 0 \"{title}\"");
     for rank in 0..=last {
         let name = if rank == last { "service node".to_owned() } else { format!("node {rank}") };
-        let _ = writeln!(text, "{CREATE_CONTAINER} 0 {rank} N r \"{name}\"");
+        let _ = writeln!(text, "{CREATE_CONTAINER} 0 {} N r \"{name}\"", rank + 1);
     }
     let mut lines = Lines::default();
     for (rank, mail) in Mail::of(recording).iter().enumerate() {
         let node = &recording.nodes[rank];
         let lane = Lane { messages: &recording.messages, node, mail, sample };
-        states(&mut lines, rank, &lane);
+        states(&mut lines, rank + 1, &lane);
     }
     powers(&mut lines, recording);
     messages(&mut lines, recording, sample);
     let end = lines.write(&mut text);
     for rank in 0..=last {
-        let _ = writeln!(text, "{DESTROY_CONTAINER} {} N {rank}", seconds(end));
+        let _ = writeln!(text, "{DESTROY_CONTAINER} {} N {}", Seconds(end), rank + 1);
     }
-    let _ = writeln!(text, "{DESTROY_CONTAINER} {} R r", seconds(end));
+    let _ = writeln!(text, "{DESTROY_CONTAINER} {} R r", Seconds(end));
     text.into_bytes()
 }
 
@@ -125,19 +125,19 @@ fn definitions() -> String {
 }
 
 /// What a node does, and how many sources wait for it.
-fn states(lines: &mut Lines, rank: usize, lane: &Lane) {
+fn states(lines: &mut Lines, container: usize, lane: &Lane) {
     for (time, mark) in lane.marks(true) {
         if let Mark::Begin(activity, _) = mark {
             let alias = alias(activity);
-            lines.add(time, 0, format_args!("{SET_STATE} {} S {rank} {alias}", seconds(time)));
+            lines.add(time, 0, format_args!("{SET_STATE} {} S {container} {alias}", Seconds(time)));
         }
     }
     let end = lane.node.end();
-    lines.add(end, 0, format_args!("{SET_STATE} {} S {rank} {ENDED}", seconds(end)));
+    lines.add(end, 0, format_args!("{SET_STATE} {} S {container} {ENDED}", Seconds(end)));
     for (i, &(time, length)) in lane.node.queue.iter().enumerate() {
         if lane.sample.holds(i) {
-            let time_s = seconds(time);
-            lines.add(time, 1, format_args!("{SET_VARIABLE} {time_s} Q {rank} {length}"));
+            let time_s = Seconds(time);
+            lines.add(time, 1, format_args!("{SET_VARIABLE} {time_s} Q {container} {length}"));
         }
     }
 }
@@ -148,7 +148,7 @@ fn powers(lines: &mut Lines, recording: &Recording) {
         let values = [energy.unshot as f32, energy.in_transit as f32];
         for ((last, value), variable) in last.iter_mut().zip(values).zip(["U", "T"]) {
             if last.replace(value) != Some(value) {
-                let time = seconds(energy.at);
+                let time = Seconds(energy.at);
                 lines.add(energy.at, 1, format_args!("{SET_VARIABLE} {time} {variable} r {value}"));
             }
         }
@@ -162,11 +162,11 @@ fn messages(lines: &mut Lines, recording: &Recording, sample: Sample) {
             continue;
         };
         let kind = alias(Activity::Send(message.kind));
-        let (sent, bytes, from, to) =
-            (seconds(message.sent), message.bytes, message.from, message.to);
+        let (from, to) = (message.from + 1, message.to + 1);
+        let (sent, bytes) = (Seconds(message.sent), message.bytes);
         let start = format_args!("{START_LINK} {sent} L r {kind} {from} {number:x} {bytes}");
         lines.add(message.sent, 2, start);
-        let end_s = seconds(end);
+        let end_s = Seconds(end);
         lines.add(end, 3, format_args!("{END_LINK} {end_s} L r {kind} {to} {number:x}"));
     }
 }
@@ -180,7 +180,7 @@ struct Lines {
 }
 
 impl Lines {
-    fn add(&mut self, time: Time, order: u8, line: std::fmt::Arguments) {
+    fn add(&mut self, time: Time, order: u8, line: fmt::Arguments) {
         let begin = self.text.len();
         let _ = writeln!(self.text, "{line}");
         self.index.push((time, order, begin, self.text.len()));
@@ -215,9 +215,38 @@ fn colour(activity: Activity) -> &'static str {
     }
 }
 
-/// Seconds, to the nanosecond below.
-fn seconds(time: Time) -> String {
-    let ns = time.0 / 1_000;
-    let text = format!("{}.{:09}", ns / 1_000_000_000, ns % 1_000_000_000);
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+/// A time in seconds, to the nanosecond below, without zeros at the end.
+struct Seconds(Time);
+
+impl fmt::Display for Seconds {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let ns = self.0.0 / 1_000;
+        let (whole, mut part, mut digits) = (ns / 1_000_000_000, ns % 1_000_000_000, 9);
+        if part == 0 {
+            return write!(f, "{whole}");
+        }
+        while part % 10 == 0 {
+            (part, digits) = (part / 10, digits - 1);
+        }
+        write!(f, "{whole}.{part:0digits$}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn seconds_are_exact_and_short() {
+        for (ps, text) in [
+            (0, "0"),
+            (999, "0"),
+            (1_000, "0.000000001"),
+            (1_500_000_000_000, "1.5"),
+            (6_253_559_567_123_999, "6253.559567123"),
+            (20_000_000_000_000, "20"),
+        ] {
+            assert_eq!(Seconds(Time(ps)).to_string(), text);
+        }
+    }
 }

@@ -37,6 +37,8 @@ pub(crate) struct Shared {
     pub kept: Arc<KeptShots>,
     pub owners: Vec<Rank>,
     pub processors: usize,
+    /// What a wall patch must be worth to be handed on.
+    pub wall_threshold: f64,
     pub on_shot: Arc<dyn Fn() + Send + Sync>,
 }
 
@@ -49,10 +51,14 @@ impl Shared {
     /// Have a shot that this run will ask for cast ahead by threads that have nothing else to do, and
     /// those that it leads to as well. Where its rays end does not depend on what happens meanwhile.
     fn foresee(self: &Arc<Self>, parcel: &Parcel) {
-        if !self.kept.foresee(parcel) {
+        if !self.kept.helpers().want_jobs() {
             return;
         }
-        let (shared, parcel) = (Arc::clone(self), parcel.clone());
+        let parcel = self.problem.arriving(parcel.clone());
+        if !self.kept.foresee(&parcel) {
+            return;
+        }
+        let shared = Arc::clone(self);
         self.kept.helpers().add(Box::new(move || {
             let Shared { problem, kept, .. } = &*shared;
             kept.cast_ahead(problem, &parcel, |shot| {
@@ -85,9 +91,9 @@ pub async fn compute_node(process: &impl Process, mut node: ComputeNode) -> Comp
     node.settle(process);
     loop {
         while let Some(source) = node.choose_best_source(process).await {
-            let shot = node.compute_illumination(process, &source).await;
-            node.send_source_neighbours(process, &source, &shot).await;
-            node.send_to_host(process, &source, &shot).await;
+            let shots = node.compute_illumination(process, &source).await;
+            node.send_source_neighbours(process, &source, &shots).await;
+            node.send_to_host(process, &source, &shots).await;
             node.read_arrived(process).await;
         }
         node.detect_termination(process).await;
@@ -121,12 +127,12 @@ impl ComputeNode {
         process.keep(footprint::PROGRAM, || Footprint::of_the_program(problem));
     }
 
-    /// §4.2.2: the greatest source, from the region or from the queue; a patch that is cut into
-    /// several sources shoots them one after the other.
-    async fn choose_best_source(&mut self, process: &impl Process) -> Option<Parcel> {
+    /// §4.2.2: the greatest source, from the region or from the queue; a patch that is cut into several
+    /// sources shoots them one after the other, a wall patch all that it is at once.
+    async fn choose_best_source(&mut self, process: &impl Process) -> Option<Vec<Parcel>> {
         if let Some(part) = self.parts.pop() {
             self.tally.counts.local_shots += 1;
-            return Some(part);
+            return Some(vec![part]);
         }
         let rules = &self.shared.rules;
         let received = self.queue.best(rules.selection);
@@ -152,11 +158,11 @@ impl ComputeNode {
                 self.tally.counts.local_shots += 1;
                 self.parts = self.region.take(holding, patch);
                 self.parts.reverse();
-                self.parts.pop()
+                self.parts.pop().map(|part| vec![part])
             }
             (None, None) => None,
         };
-        if let Some(source) = &choice {
+        if let Some(source) = choice.as_ref().and_then(|source| source.first()) {
             process.observe(|to| to.selected(process.now(), process.rank(), source));
         }
         self.foresee_local();
@@ -170,65 +176,118 @@ impl ComputeNode {
         }
     }
 
-    fn take_received(&mut self, process: &impl Process, place: usize) -> Parcel {
-        let (turn, parcel) = self.queue.take(place);
+    fn take_received(&mut self, process: &impl Process, place: usize) -> Vec<Parcel> {
+        let (turn, source) = self.queue.take(place);
         process.release(footprint::queued(turn));
         self.tell_queue(process);
         self.tally.counts.received_shots += 1;
         self.tally.parcels_taken += 1;
-        self.tally.taken += parcel.source.power * parcel.form_factor;
-        parcel
+        self.tally.taken += power_of(&source);
+        source
     }
 
     /// §4.2.3: cast the rays of the pixels that are still true, and update radiosities.
-    async fn compute_illumination(&mut self, process: &impl Process, source: &Parcel) -> Shot {
-        process.touch([footprint::PROGRAM, footprint::environment(source.environment)]).await;
+    async fn compute_illumination(
+        &mut self,
+        process: &impl Process,
+        source: &[Parcel],
+    ) -> Vec<Shot> {
+        let environment = source.first().map(|part| footprint::environment(part.environment));
+        process.touch([footprint::PROGRAM].into_iter().chain(environment)).await;
         let Shared { problem, kept, on_shot, .. } = &*self.shared;
         let kernel = || {
-            let shot = kept.shot(problem, source);
-            let work = shot.work;
-            (shot, work)
+            let shots: Vec<Shot> = source.iter().map(|part| kept.shot(problem, part)).collect();
+            let work = shots.iter().fold(Work::NONE, |all, shot| all + shot.work);
+            ((shots, work), work)
         };
-        let shot = process.compute(kernel).await;
+        let (shots, work) = process.compute(kernel).await;
         on_shot();
-        self.tally.work += shot.work;
-        let reflected = self.region.receive(source, &shot);
-        process.observe(|to| to.shot(process.now(), process.rank(), source, &shot, reflected));
-        shot
+        self.tally.work += work;
+        for (part, shot) in source.iter().zip(&shots) {
+            let reflected = self.region.receive(part, shot);
+            process.observe(|to| to.shot(process.now(), process.rank(), part, shot, reflected));
+        }
+        shots
     }
 
     /// §4.2.3: hand the source with what is left of its mask to each neighbour that it enters.
     async fn send_source_neighbours(
         &mut self,
         process: &impl Process,
-        parcel: &Parcel,
-        shot: &Shot,
+        source: &[Parcel],
+        shots: &[Shot],
     ) {
         let shared = Arc::clone(&self.shared);
         let pixels_a_bit = shared.rules.shooting.pixels_a_bit;
-        for onward in shared.problem.onward(parcel, shot, pixels_a_bit) {
-            shared.foresee(&onward);
-            self.tally.parcels_sent += 1;
-            self.tally.sent += onward.source.power * onward.form_factor;
-            let owner = shared.owners[onward.environment as usize];
-            if owner == process.rank() {
-                self.enqueue(process, onward);
-            } else {
-                let bytes = Message::Source(Box::new(onward)).encode();
-                self.tally.counts.messages += 1;
-                self.tally.counts.message_bytes += bytes.len() as u64;
-                self.ring.patch_sent();
-                process.send(owner, bytes).await;
+        for (part, shot) in source.iter().zip(shots) {
+            for onward in shared.problem.onward(part, shot, pixels_a_bit) {
+                self.hand_on(process, vec![onward], |mut source| {
+                    source.pop().map(|onward| Message::Source(Box::new(onward)))
+                })
+                .await;
             }
+        }
+        if shared.problem.walls.is_some() {
+            self.send_wall_patches(process, source, shots).await;
+        }
+    }
+
+    /// Virtual walls in place of masks: gather what leaves, and hand on what wall patches have gathered
+    /// where no better source is left here.
+    async fn send_wall_patches(
+        &mut self,
+        process: &impl Process,
+        source: &[Parcel],
+        shots: &[Shot],
+    ) {
+        let shared = Arc::clone(&self.shared);
+        let gather = |(part, shot)| self.region.gather(part, shot);
+        let gathering =
+            source.iter().zip(shots).map(gather).fold(Work::NONE, |all, work| all + work);
+        let received = self.queue.best(shared.rules.selection).map(|(value, _)| value);
+        let local = self.region.best_patch().filter(|_| self.selecting).map(|(value, ..)| value);
+        let best = received.into_iter().chain(local).fold(shared.wall_threshold, f64::max);
+        let (handed, handing) = match self.selecting {
+            true => self.region.hand_on(best),
+            false => (Vec::new(), Work::NONE),
+        };
+        self.tally.work += gathering + handing;
+        process.compute(|| ((), gathering + handing)).await;
+        for wall_patch in handed {
+            let bins = shared.problem.bins_of(&wall_patch);
+            self.hand_on(process, bins, |_| Some(Message::WallPatch(Box::new(wall_patch)))).await;
+        }
+    }
+
+    /// Hand a source on to whoever owns its environment.
+    async fn hand_on(
+        &mut self,
+        process: &impl Process,
+        source: Vec<Parcel>,
+        message: impl FnOnce(Vec<Parcel>) -> Option<Message>,
+    ) {
+        let Some(first) = source.first() else { return };
+        let owner = self.shared.owners[first.environment as usize];
+        source.iter().for_each(|part| self.shared.foresee(part));
+        self.tally.parcels_sent += 1;
+        self.tally.sent += power_of(&source);
+        if owner == process.rank() {
+            self.enqueue(process, source);
+        } else if let Some(message) = message(source) {
+            let bytes = message.encode();
+            self.tally.counts.messages += 1;
+            self.tally.counts.message_bytes += bytes.len() as u64;
+            self.ring.patch_sent();
+            process.send(owner, bytes).await;
         }
     }
 
     /// Figure 6: tell the service node which radiosities changed, for the display.
-    async fn send_to_host(&mut self, process: &impl Process, parcel: &Parcel, shot: &Shot) {
-        if !self.shared.rules.radiosity_updates || shot.hits.is_empty() {
+    async fn send_to_host(&mut self, process: &impl Process, source: &[Parcel], shots: &[Shot]) {
+        if !self.shared.rules.radiosity_updates || shots.iter().all(|shot| shot.hits.is_empty()) {
             return;
         }
-        let bytes = Message::Update(self.region.updates(parcel, shot)).encode();
+        let bytes = Message::Update(self.region.updates(source, shots)).encode();
         self.tally.counts.update_messages += 1;
         self.tally.counts.update_bytes += bytes.len() as u64;
         process.send(self.shared.service_node(), bytes).await;
@@ -240,7 +299,11 @@ impl ComputeNode {
             // Processes send each other nothing but encoded messages.
             let Ok(message) = Message::decode(&bytes) else { continue };
             match message {
-                Message::Source(parcel) => self.enqueue(process, *parcel),
+                Message::Source(parcel) => self.enqueue(process, vec![*parcel]),
+                Message::WallPatch(wall_patch) => {
+                    let bins = self.shared.problem.bins_of(&wall_patch);
+                    self.enqueue(process, bins);
+                }
                 Message::Collect => {
                     let sums = Message::Sums(self.sums(process.rank()));
                     self.send_control(process, self.shared.service_node(), &sums).await;
@@ -253,9 +316,11 @@ impl ComputeNode {
         }
     }
 
-    fn enqueue(&mut self, process: &impl Process, parcel: Parcel) {
-        let footprint = Footprint::of_source(&parcel);
-        match self.queue.push(parcel, self.shared.rules.merge_masks) {
+    fn enqueue(&mut self, process: &impl Process, source: Vec<Parcel>) {
+        let footprint = Footprint::of_source(&source);
+        let problem = &self.shared.problem;
+        let source = source.into_iter().map(|part| problem.arriving(part)).collect();
+        match self.queue.push(source, self.shared.rules.merge_masks) {
             Some(turn) => process.keep(footprint::queued(turn), || footprint),
             // Taken up by another parcel, and with it when that is shot.
             None => self.tally.parcels_taken += 1,
@@ -299,4 +364,9 @@ impl ComputeNode {
             taken: self.tally.taken.element_sum(),
         }
     }
+}
+
+/// The power that a source carries into an environment, W.
+fn power_of(source: &[Parcel]) -> radiosity::Rgb {
+    source.iter().map(|part| part.source.power * part.form_factor).sum()
 }

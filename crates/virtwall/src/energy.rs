@@ -27,6 +27,7 @@ impl EnergyLedger {
         let onward: f64 = shot.outgoing.iter().flatten().map(|out| out.form_factor).sum();
         self.absorbed += power * (fallen + shot.backs) - reflected;
         self.escaped += power * shot.escaped;
+        self.medium += power * shot.medium;
         self.in_transit += power * (onward - source.form_factor);
         self.unshot += reflected;
     }

@@ -86,12 +86,20 @@ impl Footprint {
             .with(Thing::CellEntry, entries)
             .with(Thing::Polygon, environment.polygons())
             .with(Thing::Patch, environment.patches.len())
+            .with(Thing::MaskWord, problem.wall_bins(number) * 3)
     }
 
     /// A source that waits in a queue.
-    pub(crate) fn of_source(parcel: &Parcel) -> Footprint {
-        let bits = parcel.mask.pixels().div_ceil(parcel.mask.pixels_a_bit());
-        let words = bits.div_ceil(32) as usize;
+    pub(crate) fn of_source(sources: &[Parcel]) -> Footprint {
+        let words = |Parcel { source, mask, .. }: &Parcel| match source.is_of_a_wall() {
+            // Three colours a bin, in single precision.
+            true => 3,
+            false => {
+                let bits = mask.pixels().div_ceil(mask.pixels_a_bit());
+                (bits.div_ceil(32) * mask.bits_a_pixel()) as usize
+            }
+        };
+        let words = sources.iter().map(words).sum();
         Footprint::default().with(Thing::Source, 1).with(Thing::MaskWord, words)
     }
 

@@ -64,8 +64,9 @@ impl MachineObserver<Vec<u8>> for Interpreter {
     fn sent(&mut self, now: Time, message: Sent<'_, Vec<u8>>) {
         // Processes send each other nothing but encoded messages.
         let Some(kind) = MessageKind::of(message.message) else { return };
-        let Sent { number, from, to, bytes, .. } = message;
-        self.observer.borrow_mut().sent(now, &SentMessage { number, from, to, kind, bytes });
+        let Sent { number, from, to, bytes, handed_over, .. } = message;
+        let message = SentMessage { number, from, to, kind, bytes, handed_over };
+        self.observer.borrow_mut().sent(now, &message);
     }
 
     fn arrived(&mut self, now: Time, to: Rank, number: u64, stalls: &[Stall]) {
@@ -95,5 +96,9 @@ impl Observer for Interpreter {
 
     fn queue(&mut self, now: Time, rank: Rank, length: usize) {
         self.observer.borrow_mut().queue(now, rank, length);
+    }
+
+    fn memory(&mut self, now: Time, rank: Rank, bytes: u64) {
+        self.observer.borrow_mut().memory(now, rank, bytes);
     }
 }

@@ -4,12 +4,14 @@
 //! Knows nothing of files, plots or the command line.
 
 mod ambient;
+mod coarse;
 mod compute_node;
 mod counts;
 mod decomposition;
 mod display;
 mod energy;
 mod footprint;
+mod gathered;
 mod helpers;
 mod instants;
 mod interpreter;
@@ -43,7 +45,7 @@ pub use helpers::Helpers;
 pub use instants::{Instant, radiosity_at, visit_instants};
 pub use kept_shots::{Archive, KeptShots, ShotCounts};
 pub use memory::Memory;
-pub use message::{DecodeError, Message, MessageKind, Parcel, PatchUpdate, Sums};
+pub use message::{DecodeError, Message, MessageKind, Parcel, PatchUpdate, Sums, WallPatch};
 pub use observer::{Activity, Observer, SentMessage, SharedObserver};
 pub use outcome::{Ending, EnergyLedger, NodeReport, Outcome};
 pub use problem::{Problem, ProblemError, ProblemOptions};

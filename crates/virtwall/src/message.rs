@@ -1,7 +1,7 @@
 //! The wire format of everything that processes send.
 
 use radiosity::glam::DVec3;
-use radiosity::{Mask, Source};
+use radiosity::{DepthBits, Mask, Side, Source};
 use thiserror::Error;
 
 /// A message between processes.
@@ -9,6 +9,8 @@ use thiserror::Error;
 pub enum Message {
     /// A source and its mask for one environment of the receiver (§4.2.3).
     Source(Box<Parcel>),
+    /// What a wall patch has gathered, where virtual walls stand in place of masks.
+    WallPatch(Box<WallPatch>),
     /// Radiosities of patches that a shot changed, for the display (Figure 6, `send_to_host`).
     Update(Vec<PatchUpdate>),
     /// The service node asks for sums of energy.
@@ -32,8 +34,10 @@ pub struct Parcel {
     pub source: Source,
     /// The pixels that arrive.
     pub mask: Mask,
-    /// Their form factor together.
+    /// The form factor together of those that left for it, which are they unless the mask is coarse.
     pub form_factor: f64,
+    /// If the mask is coarser than the hemisphere: the side by which the source comes in.
+    pub through: Option<Side>,
 }
 
 impl Parcel {
@@ -41,6 +45,26 @@ impl Parcel {
     /// environment never comes back: it is a box, and rays are straight.
     pub fn is_local(&self) -> bool {
         self.environment == self.source.environment
+    }
+}
+
+/// A wall patch on its way to the environment behind it, which knows where it lies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WallPatch {
+    /// Where it goes.
+    pub environment: u32,
+    /// The side of that environment by which light enters, by [`Side::index`](radiosity::Side::index).
+    pub side: u8,
+    /// The wall patch of that side.
+    pub patch: u32,
+    /// Power in each bin of directions, W.
+    pub power: Vec<[f32; 3]>,
+}
+
+impl WallPatch {
+    /// Words of 8 bytes that its bins take.
+    pub(crate) fn words(&self) -> u64 {
+        (self.power.len() as u64 * 12).div_ceil(8)
     }
 }
 
@@ -85,11 +109,13 @@ pub enum MessageKind {
     Token,
     /// [`Message::Done`].
     Done,
+    /// [`Message::WallPatch`].
+    WallPatch,
 }
 
 impl MessageKind {
     /// Every kind, in the order of the bytes with which messages begin.
-    pub const ALL: [MessageKind; 7] = [
+    pub const ALL: [MessageKind; 8] = [
         MessageKind::Source,
         MessageKind::Update,
         MessageKind::Collect,
@@ -97,6 +123,7 @@ impl MessageKind {
         MessageKind::StopSelecting,
         MessageKind::Token,
         MessageKind::Done,
+        MessageKind::WallPatch,
     ];
 
     /// The kind of an encoded message.
@@ -114,6 +141,7 @@ impl MessageKind {
             MessageKind::StopSelecting => "stop selecting",
             MessageKind::Token => "token",
             MessageKind::Done => "done",
+            MessageKind::WallPatch => "wall patch",
         }
     }
 }
@@ -129,8 +157,10 @@ impl Message {
         let mut to = Vec::new();
         match self {
             Message::Source(parcel) => {
-                let bits = parcel.mask.pixels() / parcel.mask.pixels_a_bit();
-                to.reserve(160 + bits as usize / 8);
+                let Parcel { mask, .. } = &**parcel;
+                to.reserve(
+                    160 + (mask.pixels() / mask.pixels_a_bit() * mask.bits_a_pixel() / 8) as usize,
+                );
                 to.push(0);
                 encode_parcel(parcel, &mut to);
             }
@@ -154,6 +184,10 @@ impl Message {
             Message::StopSelecting => to.push(4),
             Message::Token(value) => to.extend([5, u8::from(*value)]),
             Message::Done => to.push(6),
+            Message::WallPatch(wall_patch) => {
+                to.push(7);
+                encode_wall_patch(wall_patch, &mut to);
+            }
         }
         to
     }
@@ -184,6 +218,7 @@ impl Message {
             4 => Message::StopSelecting,
             5 => Message::Token(from.byte()? != 0),
             6 => Message::Done,
+            7 => Message::WallPatch(Box::new(decode_wall_patch(&mut from)?)),
             _ => return Err(DecodeError("unknown kind")),
         };
         if from.0.is_empty() { Ok(message) } else { Err(DecodeError("bytes left over")) }
@@ -193,17 +228,40 @@ impl Message {
 /// Bits of a message that hold the number of pixels; [`radiosity::MOST_PIXELS`] fits them.
 const PIXEL_BITS: u32 = 25;
 
+/// 1, 2, 4 and so on to 64 pixels may share a bit.
+const COARSENESSES: u32 = 7;
+/// Sizes of the integers that travel where there are media.
+const DEPTHS: [DepthBits; 2] = [DepthBits::Eight, DepthBits::Sixteen];
+/// How many ways there are to send a mask.
+const LAYOUTS: u32 = COARSENESSES + DEPTHS.len() as u32;
+
+/// How a mask travels: a bit for so many pixels, or an integer each.
+fn layout(mask: &Mask) -> u32 {
+    match mask.depth_bits() {
+        None => mask.pixels_a_bit().trailing_zeros(),
+        Some(DepthBits::Eight) => COARSENESSES,
+        Some(DepthBits::Sixteen) => COARSENESSES + 1,
+    }
+}
+
 fn encode_parcel(parcel: &Parcel, to: &mut Vec<u8>) {
-    let Parcel { environment, source, mask, form_factor } = parcel;
-    // Pixels take 25 bits; above them stands how many share a bit.
-    let pixels = mask.pixels() | mask.pixels_a_bit().trailing_zeros() << PIXEL_BITS;
+    let Parcel { environment, source, mask, form_factor, through } = parcel;
+    let through = through.map_or(0, |side| 1 + side.index() as u32);
+    let layout = layout(mask) + LAYOUTS * through;
+    let pixels = mask.pixels() | layout << PIXEL_BITS;
     let numbers = [*environment, source.environment, source.patch, source.polygon, pixels];
     numbers.iter().for_each(|n| to.extend(n.to_le_bytes()));
     for vector in [source.centre, source.normal, source.power, source.radiosity] {
         vector.to_array().iter().for_each(|x| to.extend(x.to_le_bytes()));
     }
     to.extend(form_factor.to_le_bytes());
-    mask.travelling().iter().for_each(|word| to.extend(word.to_le_bytes()));
+    match mask.steps() {
+        None => mask.travelling().iter().for_each(|word| to.extend(word.to_le_bytes())),
+        Some((steps, DepthBits::Eight)) => to.extend(steps.iter().map(|&steps| steps as u8)),
+        Some((steps, DepthBits::Sixteen)) => {
+            steps.iter().for_each(|steps| to.extend(steps.to_le_bytes()));
+        }
+    }
 }
 
 fn decode_parcel(from: &mut Reader) -> Result<Parcel, DecodeError> {
@@ -219,12 +277,58 @@ fn decode_parcel(from: &mut Reader) -> Result<Parcel, DecodeError> {
         radiosity: from.vector()?,
     };
     let form_factor = from.f64()?;
-    let words = std::mem::take(&mut from.0);
-    let words = words.chunks(8).map(|chunk| Reader(chunk).take().map(u64::from_le_bytes));
-    let (pixels, logarithm) = (pixels & ((1 << PIXEL_BITS) - 1), pixels >> PIXEL_BITS);
-    let mask = Mask::arrived(words.collect::<Result<_, _>>()?, pixels, 1 << logarithm)
-        .ok_or(DecodeError("mask and pixels differ"))?;
-    Ok(Parcel { environment, source, mask, form_factor })
+    let (pixels, layout) = (pixels & ((1 << PIXEL_BITS) - 1), pixels >> PIXEL_BITS);
+    let mask = decode_mask(std::mem::take(&mut from.0), pixels, layout % LAYOUTS)?;
+    let through = (layout / LAYOUTS).checked_sub(1);
+    let through = through.and_then(|side| Side::ALL.get(side as usize)).copied();
+    Ok(Parcel { environment, source, mask, form_factor, through })
+}
+
+/// A mask from what has travelled, with its pixels and its layout.
+fn decode_mask(from: &[u8], pixels: u32, layout: u32) -> Result<Mask, DecodeError> {
+    let depths = (layout.checked_sub(COARSENESSES)).and_then(|i| DEPTHS.get(i as usize)).copied();
+    let mask = match depths {
+        Some(bits) => {
+            let steps = from.chunks(bits.bits() as usize / 8).map(|chunk| match chunk {
+                &[steps] if bits == DepthBits::Eight => Ok(u16::from(steps)),
+                chunk => Reader(chunk).u16(),
+            });
+            Mask::from_steps(steps.collect::<Result<_, _>>()?, bits)
+                .filter(|mask| mask.pixels() == pixels)
+        }
+        None => {
+            let words = from.chunks(8).map(|chunk| Reader(chunk).take().map(u64::from_le_bytes));
+            Mask::arrived(words.collect::<Result<_, _>>()?, pixels, 1 << layout)
+        }
+    };
+    mask.ok_or(DecodeError("mask and pixels differ"))
+}
+
+/// A bit a bin tells whether it holds power; only the power of those that do follows.
+fn encode_wall_patch(wall_patch: &WallPatch, to: &mut Vec<u8>) {
+    let WallPatch { environment, side, patch, power } = wall_patch;
+    to.extend(environment.to_le_bytes());
+    to.push(*side);
+    to.extend(patch.to_le_bytes());
+    to.extend((power.len() as u16).to_le_bytes());
+    for bins in power.chunks(8) {
+        let held = bins.iter().zip(0..).map(|(&power, i)| u8::from(power != [0.0; 3]) << i);
+        to.push(held.fold(0, |all, bit| all | bit));
+    }
+    let held = power.iter().filter(|&&power| power != [0.0; 3]);
+    held.flatten().for_each(|x| to.extend(x.to_le_bytes()));
+}
+
+fn decode_wall_patch(from: &mut Reader) -> Result<WallPatch, DecodeError> {
+    let (environment, side, patch) = (from.u32()?, from.byte()?, from.u32()?);
+    let bins = usize::from(from.u16()?);
+    let held = (0..bins.div_ceil(8)).map(|_| from.byte()).collect::<Result<Vec<u8>, _>>()?;
+    let power = (0..bins).map(|bin| match held[bin / 8] >> (bin % 8) & 1 {
+        0 => Ok([0.0; 3]),
+        _ => Ok([from.f32()?, from.f32()?, from.f32()?]),
+    });
+    let power = power.collect::<Result<_, _>>()?;
+    Ok(WallPatch { environment, side, patch, power })
 }
 
 /// Bytes not read yet.
@@ -239,6 +343,10 @@ impl Reader<'_> {
 
     pub(crate) fn byte(&mut self) -> Result<u8, DecodeError> {
         self.take().map(|[byte]| byte)
+    }
+
+    pub(crate) fn u16(&mut self) -> Result<u16, DecodeError> {
+        self.take().map(u16::from_le_bytes)
     }
 
     pub(crate) fn u32(&mut self) -> Result<u32, DecodeError> {
@@ -269,6 +377,15 @@ mod tests {
     fn parcel(pixels: u32) -> Message {
         let mut mask = Mask::none(pixels);
         (0..pixels).step_by(3).for_each(|i| mask.set(i));
+        parcel_with(mask)
+    }
+
+    fn dimmed(pixels: u16, bits: DepthBits) -> Message {
+        let steps = (0..pixels).map(|i| if i % 3 == 0 { bits.hidden() } else { i % 200 });
+        parcel_with(Mask::from_steps(steps.collect(), bits).unwrap())
+    }
+
+    fn parcel_with(mask: Mask) -> Message {
         let source = Source {
             environment: 7,
             patch: 1_234,
@@ -278,7 +395,36 @@ mod tests {
             power: DVec3::new(1.0, 2.0, 3.5),
             radiosity: DVec3::new(10.0, 20.0, 35.0),
         };
-        Message::Source(Box::new(Parcel { environment: 8, source, mask, form_factor: 0.25 }))
+        let through = None;
+        Message::Source(Box::new(Parcel {
+            environment: 8,
+            source,
+            mask,
+            form_factor: 0.25,
+            through,
+        }))
+    }
+
+    fn coarse_parcel(pixels: u32, pixels_a_bit: u32, side: Side) -> Message {
+        let Message::Source(mut parcel) = parcel(pixels) else { unreachable!() };
+        parcel.mask = parcel.mask.coarsened(pixels_a_bit);
+        parcel.through = Some(side);
+        Message::Source(parcel)
+    }
+
+    /// Every third bin is empty.
+    fn wall_patch(bins: usize) -> Message {
+        let power = (0..bins).map(|bin| [(bin % 3) as f32; 3]).collect();
+        Message::WallPatch(Box::new(WallPatch { environment: 8, side: 5, patch: 77, power }))
+    }
+
+    /// A wall patch takes 12 bytes for each bin that holds power, a bit for each that could, and 12.
+    #[test]
+    fn a_wall_patch_takes_what_its_bins_take() {
+        for (bins, held) in [(1, 0), (4, 2), (16, 10), (64, 42), (4_096, 2_730)] {
+            let bytes = wall_patch(bins).encode().len();
+            assert_eq!(bytes, 12 + bins.div_ceil(8) + held * 12, "{bins}");
+        }
     }
 
     #[test]
@@ -288,6 +434,8 @@ mod tests {
         for message in [
             parcel(30_976),
             parcel(65),
+            coarse_parcel(30_976, 8, Side::ALL[0]),
+            coarse_parcel(65, 64, Side::ALL[5]),
             Message::Update(vec![update; 3]),
             Message::Update(vec![]),
             Message::Collect,
@@ -296,6 +444,10 @@ mod tests {
             Message::Token(true),
             Message::Token(false),
             Message::Done,
+            dimmed(65, DepthBits::Eight),
+            dimmed(65, DepthBits::Sixteen),
+            wall_patch(1),
+            wall_patch(65),
         ] {
             let bytes = message.encode();
             assert_eq!(Message::decode(&bytes).unwrap(), message);
@@ -312,6 +464,7 @@ mod tests {
             Message::StopSelecting => kind == MessageKind::StopSelecting,
             Message::Token(_) => kind == MessageKind::Token,
             Message::Done => kind == MessageKind::Done,
+            Message::WallPatch(_) => kind == MessageKind::WallPatch,
         }
     }
 
@@ -321,13 +474,21 @@ mod tests {
         let bytes = parcel(30_976).encode().len();
         assert_eq!(bytes, 1 + 5 * 4 + 4 * 24 + 8 + 3_872);
         assert!(bytes <= 4_096);
+        for (bits, more) in [(DepthBits::Eight, 30_976), (DepthBits::Sixteen, 2 * 30_976)] {
+            assert_eq!(dimmed(30_976, bits).encode().len(), bytes - 3_872 + more);
+        }
+        // With eight pixels a bit an eighth of the mask.
+        let bytes = coarse_parcel(30_976, 8, Side::ALL[3]).encode().len();
+        assert_eq!(bytes, 1 + 5 * 4 + 4 * 24 + 8 + 488);
     }
 
     #[test]
     fn bytes_that_are_no_message_are_refused() {
-        let whole = parcel(65).encode();
-        for length in 0..whole.len() {
-            assert!(Message::decode(&whole[..length]).is_err(), "{length}");
+        for whole in [parcel(65), wall_patch(65), dimmed(65, DepthBits::Sixteen)] {
+            let whole = whole.encode();
+            for length in 0..whole.len() {
+                assert!(Message::decode(&whole[..length]).is_err(), "{length}");
+            }
         }
         assert!(Message::decode(&[6, 6]).is_err());
         assert!(Message::decode(&[99]).is_err());

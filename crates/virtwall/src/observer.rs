@@ -36,6 +36,9 @@ pub trait Observer {
 
     /// So many sources wait in a node's queue from now on.
     fn queue(&mut self, _now: Time, _rank: Rank, _length: usize) {}
+
+    /// The program of a node keeps so many bytes from now on. Told where memory is modelled.
+    fn memory(&mut self, _now: Time, _rank: Rank, _bytes: u64) {}
 }
 
 /// An observer that a run tells, and that is looked at when the run is over.
@@ -54,6 +57,8 @@ pub struct SentMessage {
     pub kind: MessageKind,
     /// Its length.
     pub bytes: u64,
+    /// Whether a coprocessor sends it: then the processor has sent it before, and goes on meanwhile.
+    pub handed_over: bool,
 }
 
 /// What a node is doing.

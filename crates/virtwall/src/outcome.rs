@@ -40,19 +40,21 @@ pub struct EnergyLedger {
     pub emitted: Rgb,
     /// Absorbed by patches and by backs of polygons.
     pub absorbed: Rgb,
-    /// On patches, not shot.
+    /// On patches, and gathered by virtual walls, not shot.
     pub unshot: Rgb,
     /// In sources handed on and not shot again.
     pub in_transit: Rgb,
     /// Gone out of the scene.
     pub escaped: Rgb,
+    /// Absorbed by participating media.
+    pub medium: Rgb,
 }
 
 impl EnergyLedger {
-    /// |emitted − (absorbed + unshot + in transit + escaped)| / emitted, colours summed; 0 when
+    /// |emitted − (absorbed + unshot + in transit + escaped + medium)| / emitted, colours summed; 0 when
     /// nothing is emitted.
     pub fn error(&self) -> f64 {
-        let found = self.absorbed + self.unshot + self.in_transit + self.escaped;
+        let found = self.absorbed + self.unshot + self.in_transit + self.escaped + self.medium;
         fraction((self.emitted - found).abs(), self.emitted)
     }
 }
@@ -108,9 +110,11 @@ impl Outcome {
             work += node.tally.work;
             pending += node.tally.parcels_sent as i64 - node.tally.parcels_taken as i64;
             energy.in_transit += node.tally.sent - node.tally.taken;
+            energy.unshot += node.region.gathered_power();
             for (environment, light) in node.region.lights() {
                 energy.absorbed += light.absorbed;
                 energy.escaped += light.escaped;
+                energy.medium += light.medium;
                 energy.unshot += light.unshot_power();
                 let geometry = &problem.environments[environment as usize];
                 let patches = 0..geometry.patches.len() as u32;

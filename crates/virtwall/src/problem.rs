@@ -1,10 +1,13 @@
 //! A scene made ready: meshed, cut into environments, with its hemisphere.
 
-use radiosity::{Hemisphere, LocalEnvironment, Outgoing, PatchSize, Rgb, Scene, Shot, Side, Space};
+use radiosity::{
+    Bounds, DepthBits, Hemisphere, LocalEnvironment, Mask, Outgoing, PatchSize, Rgb, Scene, Shot,
+    Side, Source, Space, VirtualWalls,
+};
 use thiserror::Error;
 
 use crate::decomposition::Decomposition;
-use crate::message::Parcel;
+use crate::message::{Parcel, WallPatch};
 
 /// How a scene is meshed and cut.
 #[derive(Clone, Debug)]
@@ -51,6 +54,10 @@ pub struct Problem {
     pub environments: Vec<LocalEnvironment>,
     /// The hemisphere over every source.
     pub hemisphere: Hemisphere,
+    /// Virtual walls between environments; without them masks carry the light across.
+    pub walls: Option<VirtualWalls>,
+    /// Integers of masks, in a scene with participating media.
+    pub depth_bits: DepthBits,
 }
 
 impl Problem {
@@ -75,7 +82,25 @@ impl Problem {
         let environments = (0..decomposition.environments())
             .map(|e| LocalEnvironment::new(&space, decomposition.block(e), patch_size))
             .collect();
-        Ok(Problem { space, decomposition, environments, hemisphere })
+        let (walls, depth_bits) = (None, DepthBits::Sixteen);
+        Ok(Problem { space, decomposition, environments, hemisphere, walls, depth_bits })
+    }
+
+    /// The same with virtual walls in place of masks.
+    pub fn with_walls(self, walls: VirtualWalls) -> Problem {
+        Problem { walls: Some(walls), ..self }
+    }
+
+    /// The same with other integers than of sixteen bits in masks, where there are media.
+    pub fn with_depth_bits(self, depth_bits: DepthBits) -> Problem {
+        Problem { depth_bits, ..self }
+    }
+
+    /// The mask that a patch shoots with: all visible, nothing dimmed (§3.3).
+    pub(crate) fn clear_mask(&self) -> Mask {
+        let mask = Mask::all(self.hemisphere.pixels());
+        let dims = !self.space.scene.media.is_empty() && self.walls.is_none();
+        if dims { mask.with_depths(self.depth_bits) } else { mask }
     }
 
     /// Number of patches in all environments.
@@ -83,31 +108,59 @@ impl Problem {
         self.environments.iter().map(|e| e.patches.len()).sum()
     }
 
-    /// A source with what is left of its mask, for each neighbour that it enters (§4.2.3).
+    /// A source with what is left of its mask, for each neighbour that it enters (§4.2.3); for none where
+    /// virtual walls gather what leaves.
     pub(crate) fn onward(
         &self,
         parcel: &Parcel,
         shot: &Shot,
         pixels_a_bit: u32,
     ) -> impl Iterator<Item = Parcel> {
-        let (from, source) = (parcel.environment, parcel.source);
+        let (from, source, masks) = (parcel.environment, parcel.source, self.walls.is_none());
         Side::ALL.into_iter().zip(&shot.outgoing).filter_map(move |(side, outgoing)| {
-            let Outgoing { mask, form_factor } = outgoing.clone()?;
-            let environment = self.decomposition.neighbour(from, side);
-            let parcel = Parcel { environment, source, mask, form_factor };
-            Some(if pixels_a_bit == 1 { parcel } else { self.coarsened(parcel, pixels_a_bit) })
+            let Outgoing { mask, form_factor } = outgoing.as_ref().filter(|_| masks)?;
+            // Integers travel for every pixel.
+            let whole = pixels_a_bit == 1 || mask.depth_bits().is_some();
+            Some(Parcel {
+                environment: self.decomposition.neighbour(from, side),
+                source,
+                mask: if whole { mask.clone() } else { mask.coarsened(pixels_a_bit) },
+                form_factor: *form_factor,
+                through: (!whole).then_some(Side { upper: !side.upper, ..side }),
+            })
         })
     }
 
-    /// A parcel whose mask has a bit for so many pixels, and as much energy as before.
-    fn coarsened(&self, mut parcel: Parcel, pixels_a_bit: u32) -> Parcel {
-        parcel.mask = parcel.mask.coarsened(pixels_a_bit);
-        let form_factor = self.hemisphere.form_factor(&parcel.mask);
-        if form_factor > 0.0 {
-            parcel.source.power *= parcel.form_factor / form_factor;
-            parcel.form_factor = form_factor;
-        }
-        parcel
+    /// The sources that a wall patch is for the environment behind it: its bins that hold power.
+    pub(crate) fn bins_of(&self, wall_patch: &WallPatch) -> Vec<Parcel> {
+        let WallPatch { environment, side, patch, power } = wall_patch;
+        let Some(walls) = &self.walls else { return Vec::new() };
+        let (around, side) = (self.bounds(*environment), Side::ALL[usize::from(*side)]);
+        let powers = (0u32..).zip(power).filter(|(_, power)| **power != [0.0; 3]);
+        let bin = |(bin, power): (u32, &[f32; 3])| {
+            let power = Rgb::from_array(power.map(f64::from));
+            let source = walls.source(&around, side, [*patch, bin], power);
+            let mask = Mask::all(self.rays_of(&source).pixels());
+            Parcel { environment: *environment, source, mask, form_factor: 1.0, through: None }
+        };
+        powers.map(bin).collect()
+    }
+
+    /// Bins of directions on all virtual walls of an environment.
+    pub(crate) fn wall_bins(&self, environment: u32) -> usize {
+        let environment = &self.environments[environment as usize];
+        let sides = Side::ALL.iter().filter(|&&side| environment.has_neighbour(side)).count();
+        self.walls.as_ref().map_or(0, |walls| sides * (walls.patches() * walls.bins()) as usize)
+    }
+
+    /// The rays over a source, a pixel of its mask each.
+    pub(crate) fn rays_of(&self, source: &Source) -> &Hemisphere {
+        self.walls.as_ref().and_then(|walls| walls.rays_of(source)).unwrap_or(&self.hemisphere)
+    }
+
+    /// Where an environment lies.
+    pub(crate) fn bounds(&self, environment: u32) -> Bounds {
+        self.space.grid.bounds(&self.environments[environment as usize].block)
     }
 
     /// Power that the scene emits, W.

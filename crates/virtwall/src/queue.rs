@@ -6,8 +6,8 @@ use crate::rules::Selection;
 /// Sources received and not yet shot, in order of arrival.
 #[derive(Default)]
 pub(crate) struct Queue {
-    /// With the turn in which each came.
-    waiting: Vec<(u64, Parcel)>,
+    /// With the turn in which each came: a source with its mask, or all bins of a wall patch.
+    waiting: Vec<(u64, Vec<Parcel>)>,
     turns: u64,
 }
 
@@ -16,20 +16,28 @@ impl Queue {
         self.waiting.len()
     }
 
-    /// Put a parcel in. With `merge` its mask joins that of a parcel from the same shot, if one
-    /// waits for the same environment; else returns its turn.
-    pub(crate) fn push(&mut self, parcel: Parcel, merge: bool) -> Option<u64> {
-        let same = |(_, other): &&mut (u64, Parcel)| {
-            other.environment == parcel.environment && other.source == parcel.source
-        };
-        let merged = self.waiting.iter_mut().find(|other| merge && same(other));
+    /// Put a source in. With `merge` its mask joins that of the same source, if one waits for the same
+    /// environment; else returns its turn. What comes through a wall patch while that waits always does.
+    pub(crate) fn push(&mut self, sources: Vec<Parcel>, merge: bool) -> Option<u64> {
+        let merged = self.waiting.iter_mut().find(|(_, other)| joins(other, &sources, merge));
         let Some((_, other)) = merged else {
             self.turns += 1;
-            self.waiting.push((self.turns, parcel));
+            self.waiting.push((self.turns, sources));
             return Some(self.turns);
         };
-        other.mask.merge(&parcel.mask);
-        other.form_factor += parcel.form_factor;
+        for parcel in sources {
+            match other.binary_search_by_key(&parcel.source.patch, |other| other.source.patch) {
+                Err(place) => other.insert(place, parcel),
+                Ok(place) if parcel.source.is_of_a_wall() => {
+                    other[place].source.power += parcel.source.power;
+                    other[place].source.radiosity += parcel.source.radiosity;
+                }
+                Ok(place) => {
+                    other[place].mask.merge(&parcel.mask);
+                    other[place].form_factor += parcel.form_factor;
+                }
+            }
+        }
         None
     }
 
@@ -38,7 +46,9 @@ impl Queue {
     /// Choice C13: a received source is worth its emitter's whole energy, however few pixels are
     /// left: that is what the message states.
     pub(crate) fn best(&self, selection: Selection) -> Option<(f64, usize)> {
-        let values = self.waiting.iter().map(|(_, parcel)| selection.value(&parcel.source));
+        let value =
+            |source: &Vec<Parcel>| source.iter().map(|p| selection.value(&p.source)).sum::<f64>();
+        let values = self.waiting.iter().map(|(_, source)| value(source));
         values.zip(0..).reduce(|best, other| if other.0 > best.0 { other } else { best })
     }
 
@@ -47,8 +57,21 @@ impl Queue {
         self.waiting.iter().map(|(turn, _)| *turn)
     }
 
-    /// Take a parcel out, and tell its turn.
-    pub(crate) fn take(&mut self, place: usize) -> (u64, Parcel) {
+    /// Take a source out, and tell its turn.
+    pub(crate) fn take(&mut self, place: usize) -> (u64, Vec<Parcel>) {
         self.waiting.remove(place)
     }
+}
+
+/// Whether sources that arrive are taken up by one that waits: what a wall patch has gathered by what it
+/// had gathered before, a mask by another of the same source if they are to `merge`.
+fn joins(waiting: &[Parcel], sources: &[Parcel], merge: bool) -> bool {
+    let (Some(one), Some(other)) = (waiting.first(), sources.first()) else { return false };
+    let (a, b) = (&one.source, &other.source);
+    let same = match (a.is_of_a_wall(), b.is_of_a_wall()) {
+        (true, true) => a.centre == b.centre && a.normal == b.normal,
+        (false, false) => merge && a == b,
+        _ => false,
+    };
+    same && one.environment == other.environment
 }

@@ -67,6 +67,9 @@ pub struct MessageRecord {
     pub to: u32,
     /// Its length.
     pub bytes: u32,
+    /// Whether a coprocessor sent it; else a span of its sender's begins when it is sent, if that
+    /// takes time.
+    pub handed_over: bool,
     /// When it went onto the network.
     pub sent: Time,
     /// When it came to its receiver's node, if it did.
@@ -160,6 +163,7 @@ impl Observer for Recording {
             from: message.from as u32,
             to: message.to as u32,
             bytes: message.bytes as u32,
+            handed_over: message.handed_over,
             sent: now,
             arrived: None,
             read: None,

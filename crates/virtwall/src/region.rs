@@ -4,11 +4,10 @@ use std::collections::BTreeSet;
 use std::mem;
 use std::sync::Arc;
 
-use radiosity::{
-    Greatest, Light, LocalEnvironment, Mask, Operation, Part, Rgb, Shot, Source, Work,
-};
+use radiosity::{Greatest, Light, LocalEnvironment, Operation, Part, Rgb, Shot, Source, Work};
 
-use crate::message::{Parcel, PatchUpdate};
+use crate::gathered::Gathered;
+use crate::message::{Parcel, PatchUpdate, WallPatch};
 use crate::problem::Problem;
 use crate::rules::{Rules, Selection};
 use crate::shooting::{Shooting, SourceSplit};
@@ -33,6 +32,8 @@ pub struct Region {
 struct Holding {
     environment: u32,
     light: Light,
+    /// What virtual walls have gathered of it on its way out.
+    gathered: Gathered,
     /// The values of its patches.
     values: Greatest,
     /// The best patch when last asked for new ones.
@@ -61,7 +62,8 @@ impl Region {
             let light = Light::new(&problem.space, geometry);
             let value = |patch: usize| value(selection, geometry, &light, patch as u32);
             let values = Greatest::new((0..light.unshot.len()).map(value));
-            Holding { environment, light, values, best: None, unshot: None }
+            let gathered = Gathered::default();
+            Holding { environment, light, gathered, values, best: None, unshot: None }
         };
         let holdings: Vec<Holding> = environments.map(hold).collect();
         Region {
@@ -149,7 +151,7 @@ impl Region {
 
     /// The source that a patch would be now, or several where it is to be cut.
     fn parcels(&self, holding: usize, patch: u32) -> Vec<Parcel> {
-        let Problem { space, environments, hemisphere, .. } = &*self.problem;
+        let Problem { space, environments, .. } = &*self.problem;
         let Holding { environment, light, .. } = &self.holdings[holding];
         let geometry = &environments[*environment as usize];
         let mut source = light.source(space, geometry, *environment, patch);
@@ -162,8 +164,9 @@ impl Region {
         let parcel = |part: Part| Parcel {
             environment: *environment,
             source: Source { centre: part.centre, power: source.power * part.share, ..source },
-            mask: Mask::all(hemisphere.pixels()),
+            mask: self.problem.clear_mask(),
             form_factor: 1.0,
+            through: None,
         };
         geometry.parts(space, patch, along).into_iter().map(parcel).collect()
     }
@@ -184,25 +187,72 @@ impl Region {
         reflected
     }
 
-    /// By how much the radiosity of each patch that a shot hit has grown.
-    pub(crate) fn updates(&self, parcel: &Parcel, shot: &Shot) -> Vec<PatchUpdate> {
-        let environment = parcel.environment;
-        let geometry = &self.problem.environments[environment as usize];
-        let scene = &self.problem.space.scene;
-        let update = |&(patch, form_factor): &(u32, f64)| {
-            let polygon = geometry.patches[patch as usize].polygon;
-            let reflectance = scene.material(&scene.polygons[polygon as usize]).reflectance;
-            let power = parcel.source.power * form_factor * reflectance;
-            let radiosity = (power / geometry.radiosity_area(patch)).to_array();
-            PatchUpdate { environment, patch, radiosity: radiosity.map(|x| x as f32) }
-        };
-        shot.hits.iter().map(update).collect()
+    /// Virtual walls: gather what of a source leaves the environment in which it was shot.
+    pub(crate) fn gather(&mut self, parcel: &Parcel, shot: &Shot) -> Work {
+        let mut work = Work::NONE;
+        let place = self.holdings.binary_search_by_key(&parcel.environment, |h| h.environment);
+        let Ok(place) = place else { return work };
+        let held = &mut self.holdings[place];
+        let pixels = held.gathered.gather(&self.problem, parcel, shot);
+        held.unshot = None;
+        work.count(Operation::Hit, pixels);
+        work
     }
 
-    /// Unshot power of all patches, W; summed anew only where it has changed.
+    /// Virtual walls: hand on what wall patches have gathered, where that is worth `least` or more.
+    pub(crate) fn hand_on(&mut self, least: f64) -> (Vec<WallPatch>, Work) {
+        let (mut handed, mut work) = (Vec::new(), Work::NONE);
+        let selection = self.selection;
+        let worth = |power, radiosity| selection.value_of(power, radiosity) >= least;
+        for held in &mut self.holdings {
+            work.count(Operation::PatchScan, held.gathered.len());
+            handed.extend(held.gathered.hand_on(&self.problem, held.environment, worth));
+            held.unshot = None;
+        }
+        work.count(Operation::WordCopied, handed.iter().map(WallPatch::words).sum());
+        (handed, work)
+    }
+
+    /// By how much the radiosity of each patch that shots of one source hit has grown.
+    pub(crate) fn updates(&self, parcels: &[Parcel], shots: &[Shot]) -> Vec<PatchUpdate> {
+        let mut updates: Vec<PatchUpdate> = Vec::new();
+        for (parcel, shot) in parcels.iter().zip(shots) {
+            updates.extend(self.updates_by(parcel, shot));
+        }
+        // Bins of a wall patch hit the same patches again and again.
+        updates.sort_by_key(|update| update.patch);
+        updates.dedup_by(|next, update| {
+            let same = next.patch == update.patch;
+            (0..3).filter(|_| same).for_each(|i| update.radiosity[i] += next.radiosity[i]);
+            same
+        });
+        updates
+    }
+
+    fn updates_by(&self, parcel: &Parcel, shot: &Shot) -> impl Iterator<Item = PatchUpdate> {
+        let (environment, arriving) = (parcel.environment, parcel.source.power);
+        let geometry = &self.problem.environments[environment as usize];
+        let scene = &self.problem.space.scene;
+        shot.hits.iter().map(move |&(patch, form_factor)| {
+            let polygon = geometry.patches[patch as usize].polygon;
+            let reflectance = scene.material(&scene.polygons[polygon as usize]).reflectance;
+            let power = arriving * form_factor * reflectance;
+            let radiosity = (power / geometry.radiosity_area(patch)).to_array();
+            PatchUpdate { environment, patch, radiosity: radiosity.map(|x| x as f32) }
+        })
+    }
+
+    /// Power on virtual walls that was not handed on, W.
+    pub(crate) fn gathered_power(&self) -> Rgb {
+        self.holdings.iter().map(|held| held.gathered.power()).sum()
+    }
+
+    /// Unshot power of all patches and virtual walls, W; summed anew only where it has changed.
     pub(crate) fn unshot_power(&mut self) -> Rgb {
-        let sum =
-            |held: &mut Holding| *held.unshot.get_or_insert_with(|| held.light.unshot_power());
+        let sum = |held: &mut Holding| {
+            let sum = || held.light.unshot_power() + held.gathered.power();
+            *held.unshot.get_or_insert_with(sum)
+        };
         self.holdings.iter_mut().map(sum).sum()
     }
 

@@ -18,6 +18,12 @@ pub struct Rules {
     ///
     /// Choice C6: "if its energy is under a given threshold" (§4.2.4); its value is not published.
     pub patch_threshold: f64,
+    /// A wall patch hands nothing on below this fraction of the same value, where virtual walls stand in
+    /// place of masks.
+    ///
+    /// Choice C41: what a wall patch has gathered waits there, for more to come, while there is a better
+    /// source in its processor's environments or queue.
+    pub wall_threshold: f64,
     /// The service node stops all selection when unshot energy and energy in transit together fall
     /// below this fraction of the emitted energy.
     ///

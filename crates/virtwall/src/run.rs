@@ -87,6 +87,7 @@ impl Run {
             kept: Arc::clone(&self.kept),
             owners,
             processors,
+            wall_threshold: brightest * self.rules.wall_threshold,
             on_shot: Arc::clone(&self.on_shot),
         });
         let nodes = regions.into_iter().enumerate();

@@ -9,8 +9,6 @@ pub struct Shooting {
     pub split: SourceSplit,
     /// Pixels of the hemisphere that share a bit of the masks that travel: 1, 2, 4 and so on to 64.
     ///
-    /// What is handed on is what has left, to the last joule: the power of a source is scaled by the
-    /// form factor of the pixels that left over that of the pixels that the coarse mask says left.
     pub pixels_a_bit: u32,
     /// What a patch that does not emit shoots, over what it has not shot; what is too much is missing
     /// from what it will shoot later (Feda and Purgathofer 1992).

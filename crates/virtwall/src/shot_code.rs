@@ -1,7 +1,7 @@
 //! A shot as bytes: how it is kept, in memory and in files. Of a mask only the words that hold a true
 //! pixel are written, and which these are: most masks are few pixels close together.
 
-use radiosity::{LocalEnvironment, Mask, Operation, Outgoing, Shot, Side, Work};
+use radiosity::{DepthBits, LocalEnvironment, Mask, Operation, Outgoing, Shot, Side, Work};
 
 use crate::message::{DecodeError, Reader};
 
@@ -11,16 +11,20 @@ pub(crate) fn encode(shot: &Shot) -> Vec<u8> {
     shot.work.counts().for_each(|(_, times)| to.extend(times.to_le_bytes()));
     to.extend(shot.backs.to_le_bytes());
     to.extend(shot.escaped.to_le_bytes());
+    to.extend(shot.medium.to_le_bytes());
     to.extend((shot.hits.len() as u32).to_le_bytes());
     for (patch, form_factor) in &shot.hits {
         to.extend(patch.to_le_bytes());
         to.extend(form_factor.to_le_bytes());
     }
     for outgoing in &shot.outgoing {
-        to.push(u8::from(outgoing.is_some()));
+        to.push(outgoing.as_ref().map_or(0, |outgoing| outgoing.mask.bits_a_pixel() as u8));
         if let Some(Outgoing { mask, form_factor }) = outgoing {
             to.extend(form_factor.to_le_bytes());
             encode_words(mask.words(), &mut to);
+            let steps = mask.steps().map_or(&[][..], |(steps, _)| steps);
+            let held = mask.ones().filter_map(|pixel| steps.get(pixel as usize));
+            held.for_each(|steps| to.extend(steps.to_le_bytes()));
         }
     }
     to
@@ -45,7 +49,7 @@ pub(crate) fn decode(
     for &operation in Operation::ALL {
         work.count(operation, from.u64()?);
     }
-    let (backs, escaped) = (from.f64()?, from.f64()?);
+    let (backs, escaped, medium) = (from.f64()?, from.f64()?, from.f64()?);
     let patches = environment.patches.len();
     let count = from.u32()? as usize;
     let mut hits = Vec::with_capacity(count.min(patches));
@@ -58,9 +62,14 @@ pub(crate) fn decode(
     }
     let mut outgoing: [Option<Outgoing>; 6] = Default::default();
     for side in Side::ALL {
-        if from.byte()? != 0 {
+        let bits = from.byte()?;
+        if bits != 0 {
             let form_factor = from.f64()?;
             let mask = decode_mask(&mut from, pixels)?;
+            let mask = match DepthBits::of(bits.into()) {
+                Some(bits) => decode_steps(&mut from, &mask, bits)?,
+                None => mask,
+            };
             if !environment.has_neighbour(side) {
                 return Err(DecodeError("no neighbour there"));
             }
@@ -70,7 +79,7 @@ pub(crate) fn decode(
     if !from.0.is_empty() {
         return Err(DecodeError("bytes left over"));
     }
-    Ok(Shot { hits, backs, escaped, outgoing, work })
+    Ok(Shot { hits, backs, escaped, medium, outgoing, work })
 }
 
 fn decode_mask(from: &mut Reader, pixels: u32) -> Result<Mask, DecodeError> {
@@ -84,4 +93,15 @@ fn decode_mask(from: &mut Reader, pixels: u32) -> Result<Mask, DecodeError> {
         }
     }
     Mask::from_words(words, pixels).ok_or(DecodeError("mask and pixels differ"))
+}
+
+/// The integers of the true pixels of a mask.
+fn decode_steps(from: &mut Reader, mask: &Mask, bits: DepthBits) -> Result<Mask, DecodeError> {
+    let mut steps = vec![bits.hidden(); mask.pixels() as usize];
+    for pixel in mask.ones() {
+        steps[pixel as usize] = from.u16()?;
+    }
+    let dimmed = Mask::from_steps(steps, bits).ok_or(DecodeError("integers beyond their bits"))?;
+    let same = dimmed.words() == mask.words();
+    if same { Ok(dimmed) } else { Err(DecodeError("integers and mask differ")) }
 }

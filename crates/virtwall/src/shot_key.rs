@@ -19,7 +19,8 @@ impl ShotKey {
     /// Bytes of a key in a file.
     pub const BYTES: usize = 28;
 
-    pub(crate) fn of(parcel: &Parcel) -> ShotKey {
+    /// The key of a source's shot.
+    pub fn of(parcel: &Parcel) -> ShotKey {
         let Parcel { environment, source, mask, .. } = parcel;
         ShotKey {
             environment: *environment,
@@ -61,6 +62,13 @@ fn digest(source: &Source, mask: &Mask) -> u128 {
             place.copy_from_slice(&word.to_le_bytes());
         }
         hasher.update(&bytes[..words.len() * 8]);
+    }
+    for steps in mask.steps().into_iter().flat_map(|(steps, _)| steps.chunks(256)) {
+        let mut bytes = [0; 512];
+        for (place, steps) in bytes.chunks_exact_mut(2).zip(steps) {
+            place.copy_from_slice(&steps.to_le_bytes());
+        }
+        hasher.update(&bytes[..steps.len() * 2]);
     }
     hasher.digest128()
 }

@@ -48,6 +48,12 @@ struct SimulatedProcess {
     socket: Option<Rc<Socket<Vec<u8>>>>,
 }
 
+impl SimulatedProcess {
+    fn tell_memory(&self) {
+        self.observe(|to| to.memory(self.now(), self.rank(), self.node.bytes_kept()));
+    }
+}
+
 impl Process for SimulatedProcess {
     fn rank(&self) -> Rank {
         self.node.rank()
@@ -62,6 +68,7 @@ impl Process for SimulatedProcess {
     fn keep(&self, segment: Segment, footprint: impl FnOnce() -> Footprint) {
         if let Some(memory) = &self.memory {
             self.node.keep(segment, footprint().bytes(memory));
+            self.tell_memory();
         }
     }
 
@@ -71,6 +78,9 @@ impl Process for SimulatedProcess {
 
     fn release(&self, segment: Segment) {
         self.node.release(segment);
+        if self.memory.is_some() {
+            self.tell_memory();
+        }
     }
 
     async fn send(&self, to: Rank, message: Vec<u8>) {

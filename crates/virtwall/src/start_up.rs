@@ -50,7 +50,7 @@ pub struct StartUpReport {
 /// compute node reads all of the scene ("all the compute nodes perform I/O operations at the same
 /// time"), keeps what is in its own environments, and makes patches of it.
 ///
-/// Choice C26: computing begins when all nodes are ready.
+/// Choice C30: computing begins when all nodes are ready.
 ///
 /// # Errors
 /// When the machine has no price for a step.

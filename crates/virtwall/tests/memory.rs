@@ -48,6 +48,7 @@ fn bytes(floors: u16) -> [f64; 3] {
         selection: Selection::Energy,
         ties: Ties::ReceivedFirst,
         patch_threshold: 0.1,
+        wall_threshold: 0.0,
         energy_threshold: 0.0,
         collect_every: Duration::from_seconds_f64(1.0),
         radiosity_updates: true,
@@ -77,6 +78,6 @@ fn a_patch_takes_some_250_bytes() {
     assert!((70.0..180.0).contains(&run), "{run:.0} bytes a patch for a run");
     // A mask is its bits.
     let words = size_of_val(Mask::none(30_976).words());
-    assert_eq!((words, size_of::<Mask>()), (30_976 / 8, 32));
+    assert_eq!((words, size_of::<Mask>()), (30_976 / 8, 40));
     assert!(size_of::<LocalEnvironment>() < 512);
 }

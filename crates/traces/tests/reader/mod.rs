@@ -1,6 +1,8 @@
 //! Reads a Perfetto trace as trace_processor does, as far as ours go. The messages are declared after
 //! Perfetto's own definitions, apart from the code that writes them.
 
+#![allow(dead_code, reason = "each test file uses some of these")]
+
 use std::collections::BTreeMap;
 use std::io::Read as _;
 
@@ -241,21 +243,21 @@ impl Reader {
         }
         if let Some(event) = &packet.track_event {
             state.now += packet.timestamp.unwrap();
-            let track = self.tracks[&state.track].clone();
-            state.event(event, track, &mut self.read);
+            state.event(event, &self.tracks[&state.track], &mut self.read);
         }
     }
 }
 
 impl State {
-    fn event(&mut self, event: &TrackEvent, track: String, read: &mut Read) {
+    fn event(&mut self, event: &TrackEvent, track: &str, read: &mut Read) {
+        let track = || track.to_owned();
         let at = self.now;
         match event.kind {
             1 => {
                 assert!(self.open.is_empty(), "a node does one thing at a time");
                 let category = self.categories[&event.category_iids[0]].clone();
                 let name = self.names[&event.name_iid].clone();
-                let slice = Slice { track: track.clone(), name, category, from: at, to: at };
+                let slice = Slice { track: track(), name, category, from: at, to: at };
                 self.open.push(slice);
             }
             2 => {
@@ -266,18 +268,18 @@ impl State {
             4 => {
                 let whole = event.counter_value.map(|value| value as f64);
                 let value = whole.or(event.double_counter_value).unwrap();
-                read.counters.push(Counter { track: track.clone(), value });
+                read.counters.push(Counter { track: track(), value });
             }
             other => panic!("an event of type {other}"),
         }
         for &flow in &event.terminating_flow_ids {
-            read.arrivals.push(Arrival { track: track.clone(), at, flow });
+            read.arrivals.push(Arrival { track: track(), at, flow });
         }
         for &flow in &event.flow_ids {
             let bytes = |a: &&DebugAnnotation| self.annotations[&a.name_iid] == "bytes";
             let bytes = event.debug_annotations.iter().find(bytes).unwrap().uint_value;
             let name = self.names[&event.name_iid].clone();
-            read.departures.push(Departure { track: track.clone(), name, at, bytes, flow });
+            read.departures.push(Departure { track: track(), name, at, bytes, flow });
         }
     }
 }

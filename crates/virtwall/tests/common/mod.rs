@@ -97,6 +97,7 @@ pub fn rules() -> Rules {
         selection: Selection::Energy,
         ties: Ties::ReceivedFirst,
         patch_threshold: 0.002,
+        wall_threshold: 1e-4,
         energy_threshold: 0.0,
         collect_every: Duration::from_seconds_f64(1.0),
         radiosity_updates: true,

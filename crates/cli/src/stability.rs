@@ -1,0 +1,61 @@
+//! `virtwall stability`: the cases where such methods fail, tried and drawn.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use stability::{Verdict, cases, csv, page, svg, try_case};
+
+use crate::exit::Exit;
+
+/// Which cases, and where the page goes.
+#[derive(Args)]
+pub struct Arguments {
+    /// Case files, or names of cases in the folder of cases [default: all of them]
+    case: Vec<String>,
+    /// Folder of the cases
+    #[arg(long, value_name = "DIR", default_value = "experiments/stability")]
+    cases: PathBuf,
+    /// Folder for the page, its table and its drawing [default: results/stability if all cases are
+    /// tried, else none]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+/// Tries the cases; returns what was found, a line each.
+pub fn run(arguments: &Arguments) -> Result<String, Exit> {
+    let paths = match arguments.case.is_empty() {
+        true => cases(&arguments.cases)?,
+        false => arguments.case.iter().map(|name| place(&arguments.cases, name)).collect(),
+    };
+    let verdicts = paths.iter().map(|path| try_case(path)).collect::<Result<Vec<_>, _>>()?;
+    let all = || arguments.case.is_empty().then(|| PathBuf::from("results/stability"));
+    if let Some(out) = arguments.out.clone().or_else(all) {
+        write(&out, &verdicts)?;
+    }
+    let output = csv(&verdicts).map_err(Exit::failure)?;
+    match verdicts.iter().filter(|verdict| !verdict.holds()).count() {
+        0 => Ok(output),
+        wrong => {
+            let message = format!("{wrong} of {} cases are not right", verdicts.len());
+            Err(Exit { code: 1, output, message })
+        }
+    }
+}
+
+/// A case's file: a path, or a name in the folder of cases.
+fn place(folder: &Path, name: &str) -> PathBuf {
+    let path = PathBuf::from(name);
+    if path.is_file() { path } else { folder.join(format!("{name}.json")) }
+}
+
+fn write(out: &Path, verdicts: &[Verdict]) -> Result<(), Exit> {
+    std::fs::create_dir_all(out)
+        .map_err(|error| Exit::bad_input(format!("{}: no folder: {error}", out.display())))?;
+    let table = csv(verdicts).map_err(Exit::failure)?;
+    let files =
+        [("README.md", page(verdicts)), ("cases.csv", table), ("stability.svg", svg(verdicts))];
+    for (name, text) in files {
+        lab::write_file(&out.join(name), text.as_bytes()).map_err(Exit::bad_input)?;
+    }
+    Ok(())
+}

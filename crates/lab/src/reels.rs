@@ -1,0 +1,59 @@
+//! What the report's viewer is told of the runs that were filmed.
+
+use std::sync::Arc;
+
+use radiosity::Rgb;
+use viewer::{Recorded, Reel};
+
+use crate::columns;
+use crate::engine;
+use crate::errors::laid_on;
+use crate::plan::{Plan, Run, all_else};
+use crate::runner::Endings;
+
+/// Bytes that recordings may take in a report, about.
+const LIMIT: usize = 19_000_000;
+
+/// The recordings of a plan's runs, packed; none if there are none.
+pub fn recorded(plan: &Plan, endings: &Endings) -> Option<Recorded> {
+    let mut groups: Vec<(usize, Vec<usize>)> = Vec::new();
+    let mut answers: Vec<Option<Arc<Vec<Rgb>>>> = vec![None; plan.problems.len()];
+    let mut reels = Vec::new();
+    for (run, film) in plan.runs.iter().zip(&endings.films) {
+        let Some(film) = film else { continue };
+        let key = (run.problem, all_else(plan, run, "processors"));
+        let group = groups.iter().position(|known| *known == key).unwrap_or(groups.len());
+        if group == groups.len() {
+            groups.push(key);
+        }
+        let problem = &plan.problems[run.problem].problem;
+        if answers[run.problem].is_none() {
+            let answer = plan.answer(run, &endings.dense);
+            answers[run.problem] = answer.map(|answer| Arc::new(laid_on(&answer, problem)));
+        }
+        reels.push(Reel {
+            label: label(plan, run),
+            scene: run.point.scene.clone(),
+            group,
+            problem,
+            machine: &plan.machines[run.machine].machine,
+            owners: engine::owners(&run.point, problem),
+            answer: answers[run.problem].clone(),
+            film,
+        });
+    }
+    (!reels.is_empty()).then(|| Recorded::of(&reels, LIMIT))
+}
+
+/// What tells a run from the others: its scene, its processors, and whatever else is swept.
+fn label(plan: &Plan, run: &Run) -> String {
+    let plural = if run.point.processors == 1 { "" } else { "s" };
+    let mut label = format!("{}, {} processor{plural}", run.point.scene, run.point.processors);
+    for (axis, &item) in plan.axes.iter().zip(&run.index) {
+        let field = axis.place.to_string();
+        if !["scene", "processors"].contains(&field.as_str()) {
+            label += &format!(", {field} {}", columns::cell(&axis.values[item]));
+        }
+    }
+    label
+}

@@ -1,0 +1,72 @@
+//! Faces taken as a file has them.
+
+use std::fs;
+
+use radiosity::glam::DVec3;
+
+use crate::bench::Bench;
+use crate::naive::MOST_RAYS;
+use crate::rays::{Count, rays, sources};
+
+/// A face with the normal of its first three corners.
+struct Face {
+    corners: Vec<DVec3>,
+    normal: DVec3,
+}
+
+/// The faces of the case's OBJ file.
+fn read(bench: &Bench) -> Result<Vec<Face>, String> {
+    let name = bench.scene_file.with_extension("obj");
+    let text = fs::read_to_string(&name).map_err(|error| format!("{}: {error}", name.display()))?;
+    let mut points = Vec::new();
+    let mut faces = Vec::new();
+    for line in text.lines() {
+        let mut words = line.split_whitespace();
+        match words.next() {
+            Some("v") => {
+                let numbers: Vec<f64> = words.filter_map(|word| word.parse().ok()).collect();
+                points.push(DVec3::new(numbers[0], numbers[1], numbers[2]));
+            }
+            Some("f") => {
+                let numbers = words.filter_map(|word| word.parse::<usize>().ok());
+                let corners: Vec<DVec3> = numbers.map(|number| points[number - 1]).collect();
+                let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+                faces.push(Face { normal: normal / normal.length(), corners });
+            }
+            _ => {}
+        }
+    }
+    Ok(faces)
+}
+
+impl Face {
+    /// Whether a ray hits it: the plane, then left of every edge.
+    fn is_hit(&self, origin: DVec3, direction: DVec3) -> bool {
+        let distance = (self.corners[0] - origin).dot(self.normal) / direction.dot(self.normal);
+        let point = origin + direction * distance;
+        let next = self.corners.iter().cycle().skip(1);
+        let left = |(a, b): (&DVec3, &DVec3)| (*b - *a).cross(point - *a).dot(self.normal) >= -1e-9;
+        distance > 1e-6 && self.corners.iter().zip(next).all(left)
+    }
+}
+
+/// Rays that hit none of them.
+pub fn leaks(bench: &Bench) -> Result<Count, String> {
+    let faces = read(bench)?;
+    let mut count = Count::default();
+    for trial in &bench.trials {
+        let origin = trial.problem.space.scene.origin;
+        for source in sources(bench, trial, MOST_RAYS) {
+            for ray in rays(bench, &trial.problem, &source) {
+                let hit = |face: &Face| face.is_hit(ray.origin + origin, ray.direction);
+                count = count.and(Count { wrong: u64::from(!faces.iter().any(hit)), of: 1 });
+            }
+        }
+    }
+    Ok(count)
+}
+
+/// Normals that are no numbers.
+pub fn no_normals(bench: &Bench) -> Result<u64, String> {
+    Ok(read(bench)?.iter().filter(|face| face.normal.is_nan()).count() as u64)
+}

@@ -1,0 +1,95 @@
+//! Triangles in single precision.
+
+use radiosity::glam::{DVec3, Vec3};
+use radiosity::{Ray, Scene, Source};
+use virtwall::Problem;
+
+use crate::bench::Bench;
+use crate::naive::MOST_RAYS;
+use crate::rays::{Count, rays, sources};
+
+/// Whose the corners of a polygon are.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Corners {
+    /// Rounded once, the same for all that share them.
+    Shared,
+    /// The first corner rounded, the others that and a rounded edge.
+    Own,
+}
+
+/// A corner and the edges from it, and the polygon.
+struct Triangle {
+    corner: Vec3,
+    edges: [Vec3; 2],
+    polygon: u32,
+}
+
+fn triangles(scene: &Scene, corners: Corners) -> Vec<Triangle> {
+    let mut triangles = Vec::new();
+    for (polygon, surface) in (0..).zip(&scene.polygons) {
+        let world: Vec<DVec3> = scene.corners(surface).map(|p| p + scene.origin).collect();
+        let single = |p: &DVec3| match corners {
+            Corners::Shared => p.as_vec3(),
+            Corners::Own => world[0].as_vec3() + (*p - world[0]).as_vec3(),
+        };
+        let points: Vec<Vec3> = world.iter().map(single).collect();
+        let fan = points[1..].windows(2).map(|pair| Triangle {
+            corner: points[0],
+            edges: [pair[0] - points[0], pair[1] - points[0]],
+            polygon,
+        });
+        triangles.extend(fan);
+    }
+    triangles
+}
+
+/// Möller and Trumbore 1997.
+fn distance(triangle: &Triangle, origin: Vec3, direction: Vec3) -> Option<f32> {
+    let [a, b] = triangle.edges;
+    let p = direction.cross(b);
+    let inverse = 1.0 / a.dot(p);
+    let t = origin - triangle.corner;
+    let u = t.dot(p) * inverse;
+    let q = t.cross(a);
+    let v = direction.dot(q) * inverse;
+    let distance = b.dot(q) * inverse;
+    (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && distance > 0.0).then_some(distance)
+}
+
+/// Rays that hit no triangle, on the last trial's scene: that which was changed most.
+pub fn leaks(bench: &Bench, corners: Corners) -> Count {
+    let Some(trial) = bench.trials.last() else { return Count::default() };
+    let scene = &trial.problem.space.scene;
+    let triangles = triangles(scene, corners);
+    let mut count = Count::default();
+    for source in sources(bench, trial, MOST_RAYS) {
+        let origin = (source.centre + scene.origin).as_vec3();
+        for ray in rays(bench, &trial.problem, &source) {
+            let direction = ray.direction.as_vec3();
+            let hit = |triangle: &&Triangle| {
+                triangle.polygon != source.polygon
+                    && distance(triangle, origin, direction).is_some()
+            };
+            let leaks = !triangles.iter().any(|triangle| hit(&triangle));
+            count = count.and(Count { wrong: u64::from(leaks), of: 1 });
+        }
+    }
+    count
+}
+
+/// The nearest polygon; the last one of those at the same distance.
+pub fn last(problem: &Problem, source: &Source, ray: &Ray) -> Option<u32> {
+    let (origin, direction) = (ray.origin.as_vec3(), ray.direction.as_vec3());
+    let mut nearest: Option<(f32, u32)> = None;
+    for triangle in triangles(&problem.space.scene, Corners::Shared) {
+        let local =
+            Triangle { corner: triangle.corner - problem.space.scene.origin.as_vec3(), ..triangle };
+        if let Some(distance) = distance(&local, origin, direction)
+            && local.polygon != source.polygon
+            && nearest.is_none_or(|(other, _)| distance <= other)
+        {
+            nearest = Some((distance, local.polygon));
+        }
+    }
+    nearest.map(|(_, polygon)| polygon)
+}

@@ -1,0 +1,49 @@
+//! The textbook's walk through a grid (Amanatides and Woo 1987), taken as it is printed: distances add
+//! up step by step, and what divides by zero is left to turn out well.
+
+use radiosity::{Ray, Source};
+use virtwall::Problem;
+
+/// The distance at which a ray ends.
+pub fn end(problem: &Problem, source: &Source, ray: &Ray) -> Option<f64> {
+    let grid = &problem.space.grid;
+    let cells = grid.cells();
+    let mut cell = grid.cell_of(ray.origin).map(i64::from);
+    let here = grid.bounds(&one(cell));
+    let (origin, direction) = (ray.origin.to_array(), ray.direction.to_array());
+    let (low, high) = (here.min.to_array(), here.max.to_array());
+    let step = direction.map(|d| if d >= 0.0 { 1 } else { -1 });
+    let mut next = [0.0; 3];
+    let mut apart = [0.0; 3];
+    for axis in 0..3 {
+        let plane = if step[axis] > 0 { high[axis] } else { low[axis] };
+        next[axis] = (plane - origin[axis]) / direction[axis];
+        apart[axis] = (high[axis] - low[axis]) / direction[axis].abs();
+    }
+    loop {
+        let axis = if next[0] < next[1] {
+            if next[0] < next[2] { 0 } else { 2 }
+        } else if next[1] < next[2] {
+            1
+        } else {
+            2
+        };
+        let polygons = grid.polygons(cell.map(|c| c as u32)).iter();
+        let hits = polygons
+            .filter(|&&polygon| polygon != source.polygon)
+            .filter_map(|&polygon| problem.space.facets.hit(polygon, ray, next[axis]));
+        if let Some(distance) = hits.min_by(f64::total_cmp) {
+            return Some(distance);
+        }
+        cell[axis] += step[axis];
+        next[axis] += apart[axis];
+        if !(0..i64::from(cells[axis])).contains(&cell[axis]) {
+            return None;
+        }
+    }
+}
+
+fn one(cell: [i64; 3]) -> radiosity::Block {
+    let low = cell.map(|c| c as u32);
+    radiosity::Block { low, high: low.map(|c| c + 1) }
+}

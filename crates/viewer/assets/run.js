@@ -1,0 +1,125 @@
+// One run: what each node did when, its messages, its light.
+
+/** What a node does. The order is that of viewer/src/film.rs. */
+const DOING = [
+  { key: "local", name: "local shot" },
+  { key: "received", name: "received shot" },
+  { key: "selection", name: "selection" },
+  { key: "overhead", name: "sending" },
+  { key: "overhead", name: "receiving" },
+  { key: "token", name: "token and control" },
+  { key: "paging", name: "paging" },
+  { key: "held", name: "waiting for room" },
+];
+const [LOCAL, RECEIVED] = [0, 1];
+const MESSAGES = ["source", "radiosity update", "collection", "sums", "stop", "token", "end"];
+
+class Run {
+  static async load(index, scene) {
+    return new Run(index, scene, await unpack(index.block));
+  }
+
+  constructor(index, scene, columns) {
+    this.index = index;
+    this.scene = scene;
+    this.owners = columns.ints();
+    this.spans = new Spans(columns);
+    this.nodes = this.spans.starts.length - 1;
+    this.readMessages(columns);
+    const [node, from, span, doing] = [0, 1, 2, 3].map(() => columns.ints());
+    this.critical = Array.from(node, (n, i) => ({
+      node: n, from: from[i] / 1e9, to: (from[i] + span[i]) / 1e9, doing: doing[i],
+    }));
+    this.end = index.time_s;
+    this.orderShots();
+  }
+
+  readMessages(columns) {
+    const seconds = (values) => values.map((value) => value / 1e9);
+    const sent = seconds(columns.steps());
+    const arrived = seconds(columns.ints()).map((flight, i) => sent[i] + flight);
+    const [from, to, kind, bytes] = [0, 1, 2, 3].map(() => columns.ints());
+    this.messages = { sent, arrived, from, to, kind, bytes };
+    this.longestFlight = arrived.reduce((most, at, i) => Math.max(most, at - sent[i]), 0);
+  }
+
+  /** Shots of all nodes in the order in which they end: the order in which light changes. */
+  orderShots() {
+    const { kinds, to } = this.spans;
+    const shots = [];
+    for (let i = 0; i < kinds.length; i++) if (kinds[i] <= RECEIVED) shots.push(i);
+    shots.sort((a, b) => to[a] - to[b] || a - b);
+    this.shots = Uint32Array.from(shots);
+    this.shotEnds = Float64Array.from(shots, (span) => to[span]);
+  }
+
+  /** Ranks of the nodes that hold an environment: the service node holds none. */
+  get computeNodes() {
+    return this.index.processors;
+  }
+
+  environmentsOf(node) {
+    return Array.from(this.owners.keys()).filter((e) => this.owners[e] === node);
+  }
+
+  /** The span that a node is in, or -1 while it waits. */
+  spanAt(node, time) {
+    const { from, to, starts } = this.spans;
+    const span = upperBound(from, time, starts[node], starts[node + 1]) - 1;
+    return span >= starts[node] && time < to[span] ? span : -1;
+  }
+
+  /** Seconds that a node has computed until `time`. */
+  busyUntil(node, time) {
+    const { from, to, starts, busy } = this.spans;
+    const next = upperBound(from, time, starts[node], starts[node + 1]);
+    if (next === starts[node]) return 0;
+    const last = next - 1;
+    const over = Math.max(0, to[last] - time);
+    return busy[last] - (this.spans.kinds[last] <= 2 ? over : 0);
+  }
+
+  /** Length of a node's queue and its memory in use at its last shot before `time`. */
+  queueAt(node, time) {
+    const { from, starts, queue, memory } = this.spans;
+    let span = upperBound(from, time, starts[node], starts[node + 1]) - 1;
+    while (span >= starts[node] && queue[span] < 0) span--;
+    return span < starts[node] ? { queue: 0, memory: 0 } : { queue: queue[span], memory: memory[span] };
+  }
+}
+
+/** What nodes did, node by node, by time; between two spans a node waits. */
+class Spans {
+  constructor(columns) {
+    const counts = columns.ints();
+    this.starts = starts(counts);
+    this.kinds = Uint8Array.from(columns.ints());
+    const [gaps, lengths] = [columns.ints(), columns.ints()];
+    const [shots, sources, queues] = [columns.steps(), columns.steps(), columns.ints()];
+    const memory = columns.ints();
+    this.sourcePlaces = { environment: columns.ints(), patch: columns.ints() };
+    this.powers = columns.floats();
+    const n = this.kinds.length;
+    [this.from, this.to, this.busy] = [0, 1, 2].map(() => new Float64Array(n));
+    this.shot = new Int32Array(n).fill(-1);
+    this.source = new Int32Array(n).fill(-1);
+    this.queue = new Int32Array(n).fill(-1);
+    this.memory = new Float64Array(n);
+    let nth = 0;
+    for (let node = 0; node < counts.length; node++) {
+      let [time, busy] = [0, 0];
+      for (let i = this.starts[node]; i < this.starts[node + 1]; i++) {
+        this.from[i] = (time += gaps[i]) / 1e9;
+        this.to[i] = (time += lengths[i]) / 1e9;
+        if (this.kinds[i] <= 2) busy += lengths[i];
+        this.busy[i] = busy / 1e9;
+        if (this.kinds[i] > RECEIVED) continue;
+        this.shot[i] = shots[nth];
+        this.source[i] = sources[nth];
+        this.queue[i] = queues[nth];
+        this.memory[i] = memory.length ? memory[nth] : 0;
+        nth++;
+      }
+    }
+  }
+}

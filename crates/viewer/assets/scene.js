@@ -1,0 +1,86 @@
+// A scene as the runs of a sweep share it: patches, environments, and what each shot hits.
+
+class Scene {
+  static async load(index) {
+    const scene = new Scene(index, await unpack(index.block));
+    scene.shots = new Shots(await unpack(index.shots));
+    // The answer that runs are held against, W/m², three colours a patch, if there is one.
+    scene.reference = index.reference ? (await unpack(index.reference)).floats() : null;
+    return scene;
+  }
+
+  constructor(index, columns) {
+    this.name = index.name;
+    [this.low, this.high] = split(columns.floats(), 3);
+    this.boxes = split(columns.floats(), 6);
+    this.materials = split(columns.floats(), 6);
+    this.materialOf = columns.ints();
+    this.patchStarts = starts(columns.ints());
+    this.polygons = columns.steps();
+    this.cornerStarts = starts(columns.ints());
+    this.corners = this.unfold([columns.steps(), columns.steps(), columns.steps()]);
+    this.areas = columns.floats();
+    this.patches = this.polygons.length;
+    this.environments = this.boxes.length;
+  }
+
+  /** Corners in metres from 16 bits an axis. */
+  unfold(axes) {
+    const corners = new Float32Array(3 * axes[0].length);
+    for (let axis = 0; axis < 3; axis++) {
+      const step = (this.high[axis] - this.low[axis]) / 65535;
+      axes[axis].forEach((value, i) => (corners[3 * i + axis] = this.low[axis] + step * value));
+    }
+    return corners;
+  }
+
+  material(patch) {
+    return this.materials[this.materialOf[this.polygons[patch]]];
+  }
+
+  /** The environment of a patch. */
+  environmentOf(patch) {
+    return upperBound(this.patchStarts, patch) - 1;
+  }
+
+  /** What all patches emit, W/m², three colours a patch. */
+  emission() {
+    const light = new Float32Array(3 * this.patches);
+    for (let patch = 0; patch < this.patches; patch++) {
+      light.set(this.material(patch).subarray(3, 6), 3 * patch);
+    }
+    return light;
+  }
+}
+
+/** What becomes of a source's rays in one environment: geometry, the same in all runs. */
+class Shots {
+  constructor(columns) {
+    this.unit = columns.floats()[0];
+    this.environments = columns.ints();
+    const hits = columns.ints();
+    this.starts = starts(hits);
+    this.patches = columns.ints();
+    this.weights = columns.ints();
+    [this.backs, this.escaped, this.outgoing] = [columns.ints(), columns.ints(), columns.ints()];
+    for (let shot = 0; shot < hits.length; shot++) {
+      for (let i = this.starts[shot] + 1; i < this.starts[shot + 1]; i++) {
+        this.patches[i] += this.patches[i - 1];
+      }
+    }
+  }
+}
+
+function split(values, size) {
+  return Array.from({ length: values.length / size }, (_, i) => values.subarray(size * i, size * (i + 1)));
+}
+
+/** How many of rising values are at most `value`. */
+function upperBound(values, value, low = 0, high = values.length) {
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (values[middle] <= value) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}

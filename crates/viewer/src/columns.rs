@@ -1,0 +1,70 @@
+//! Blocks of data as the page reads them: columns of numbers, deflated, in base64. Their reader is
+//! `assets/bytes.js`.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use miniz_oxide::deflate::compress_to_vec_zlib;
+
+/// How hard it is tried to deflate: of 10, where one more gains under 1 % in size.
+const EFFORT: u8 = 6;
+
+/// Columns, one after the other: how many numbers, then the numbers.
+#[derive(Default)]
+pub(crate) struct Columns {
+    bytes: Vec<u8>,
+}
+
+impl Columns {
+    /// Numbers not below zero, seven bits a byte, the lowest first.
+    pub fn ints(&mut self, values: impl IntoIterator<Item = u64>) {
+        let values: Vec<u64> = values.into_iter().collect();
+        self.number(values.len() as u64);
+        values.into_iter().for_each(|value| self.number(value));
+    }
+
+    /// Numbers by their differences, the sign in the lowest bit.
+    pub fn steps(&mut self, values: impl IntoIterator<Item = i64>) {
+        let mut last = 0;
+        let step = |value: i64| {
+            let step = value - std::mem::replace(&mut last, value);
+            ((step << 1) ^ (step >> 63)) as u64
+        };
+        let steps: Vec<u64> = values.into_iter().map(step).collect();
+        self.ints(steps);
+    }
+
+    /// Numbers in single precision.
+    pub fn floats(&mut self, values: impl IntoIterator<Item = f64>) {
+        let values: Vec<f64> = values.into_iter().collect();
+        self.number(values.len() as u64);
+        values.iter().for_each(|&value| self.bytes.extend((value as f32).to_le_bytes()));
+    }
+
+    fn number(&mut self, mut value: u64) {
+        while value >= 128 {
+            self.bytes.push(value as u8 | 128);
+            value >>= 7;
+        }
+        self.bytes.push(value as u8);
+    }
+
+    /// The block as text for the page.
+    pub fn pack(&self) -> String {
+        STANDARD.encode(compress_to_vec_zlib(&self.bytes, EFFORT))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_numbers_and_small_steps_take_a_byte() {
+        let mut columns = Columns::default();
+        columns.ints([0, 127, 128]);
+        columns.steps([1000, 999, 1000]);
+        columns.floats([1.0]);
+        let expected = [3, 0, 127, 128, 1, 3, 0xd0, 0x0f, 1, 2, 1, 0, 0, 0x80, 0x3f];
+        assert_eq!(columns.bytes, expected);
+    }
+}

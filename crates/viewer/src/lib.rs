@@ -1,0 +1,20 @@
+//! The viewer of a report: runs as they were recorded, packed into a page that shows the light, the
+//! machine and the time of any instant.
+//!
+//! A [`Film`] observes a run; [`Recorded`] packs films for a page whose [`program`] needs nothing but a
+//! browser, and answers in words what one asks first. Knows nothing of experiment files and tables.
+
+mod answers;
+mod budget;
+mod columns;
+mod critical;
+mod film;
+mod ledger;
+mod page;
+mod reel;
+mod run;
+mod scene;
+
+pub use film::Film;
+pub use page::{MARKUP, Recorded, STYLE, program};
+pub use reel::Reel;
