@@ -123,6 +123,9 @@ fn draw(table: &Table, out: &std::path::Path) -> std::io::Result<()> {
             title: Some(title.to_owned()),
             log_x: true,
             log_y: true,
+            pareto: false,
+            mark: std::collections::BTreeMap::new(),
+            mark_name: None,
             power_law: false,
             file: None,
         };

@@ -110,7 +110,7 @@ fn draw(area: &Area, drawing: &Drawing, plot: &Plot) -> Drawn {
         draw_series(&mut chart, series, colour(i))?;
     }
     draw_names(area, &chart, drawing)?;
-    draw_key(area, &chart, drawing, ideal)
+    draw_key(area, &chart, drawing, ideal, plot.mark_name.as_deref().unwrap_or("marked"))
 }
 
 fn x_scale(drawing: &Drawing, plot: &Plot) -> Scale {
@@ -144,13 +144,22 @@ fn draw_series(chart: &mut Chart, series: &Series, colour: RGBColor) -> Drawn {
     let simulated = series.simulated.iter().copied();
     // A law is straight between its ends: both axes are logarithmic.
     let through = |law: PowerLaw| simulated.clone().map(move |(x, _)| (x, law.at(x))).collect();
-    let points: Vec<_> = series.law.map_or_else(|| simulated.clone().collect(), through);
+    let joined = || series.front.clone().unwrap_or_else(|| simulated.clone().collect());
+    let points: Vec<_> = series.law.map_or_else(joined, through);
     chart.draw_series(LineSeries::new(points, line(colour, 2)))?;
     chart.draw_series(paper.clone().map(|at| Circle::new(at, px(4), WHITE.filled())))?;
     // A single point, where the two should agree, would hide behind ours: a ring around it.
     let radius = if series.paper.len() == 1 { px(8) } else { px(4) };
     chart.draw_series(paper.map(|at| Circle::new(at, radius, line(colour, 1))))?;
-    chart.draw_series(simulated.map(|at| Circle::new(at, px(4), colour.filled())))?;
+    let size = |at: &(f64, f64)| match &series.front {
+        Some(front) if !front.contains(at) => px(2),
+        _ => px(4),
+    };
+    chart.draw_series(simulated.map(|at| Circle::new(at, size(&at), colour.filled())))?;
+    for radius in [px(8), px(9)] {
+        let marked = series.marked.iter().copied();
+        chart.draw_series(marked.map(|at| Circle::new(at, radius, line(INK, 1))))?;
+    }
     Ok(())
 }
 
@@ -177,8 +186,8 @@ fn draw_names(area: &Area, chart: &Chart, drawing: &Drawing) -> Drawn {
     Ok(())
 }
 
-/// What solid and dashed lines mean.
-fn draw_key(area: &Area, chart: &Chart, drawing: &Drawing, ideal: bool) -> Drawn {
+/// What solid and dashed lines and rings mean.
+fn draw_key(area: &Area, chart: &Chart, drawing: &Drawing, ideal: bool, marked: &str) -> Drawn {
     let (xs, ys) = chart.plotting_area().get_pixel_range();
     let (x, mut y) = (xs.start + px(18), ys.start + px(16));
     let across = |from: u32, to: u32, y| [(x + px(from), y), (x + px(to), y)];
@@ -199,6 +208,11 @@ fn draw_key(area: &Area, chart: &Chart, drawing: &Drawing, ideal: bool) -> Drawn
     if ideal {
         area.draw(&PathElement::new(across(0, 36, y), line(PALE, 1)))?;
         area.draw(&name("ideal", y))?;
+        y += px(21);
+    }
+    if drawing.series.iter().any(|series| !series.marked.is_empty()) {
+        area.draw(&Circle::new((x + px(18), y), px(9), line(INK, 1)))?;
+        area.draw(&name(marked, y))?;
     }
     Ok(())
 }

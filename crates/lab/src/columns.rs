@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 
+use crate::causes;
 use crate::display;
 use crate::engine;
 use crate::errors;
@@ -88,6 +89,8 @@ pub struct Also {
     pub media: bool,
     /// Those of errors.
     pub errors: bool,
+    /// Those of what makes the errors up.
+    pub causes: bool,
     /// Those of the display.
     pub display: bool,
     /// Those of the start-up.
@@ -104,8 +107,9 @@ impl Also {
         let display = display::COLUMNS.into_iter().filter(move |_| self.display);
         let start_up = start_up::COLUMNS.into_iter().filter(move |_| self.start_up);
         let machine = network.chain(memory).chain(layer).chain(display).chain(start_up);
+        let causes = causes::COLUMNS.into_iter().filter(move |_| self.causes);
         let accuracy = tuned::COLUMNS.into_iter().filter(move |_| self.accuracy);
-        machine.chain(media).chain(errors).chain(accuracy)
+        machine.chain(media).chain(errors).chain(causes).chain(accuracy)
     }
 }
 

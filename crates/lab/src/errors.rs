@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use virtwall::Problem;
 
 use crate::answer::Answer;
+use crate::causes::Causes;
 
 /// The columns of runs.csv: [`ErrorFigures`] by name.
 pub const COLUMNS: [&str; 3] = ["error_l2", "error_max", "reference_error"];
@@ -22,6 +23,8 @@ pub struct ErrorFigures {
     pub maximum: f64,
     /// What the answer says of its own error.
     pub reference: f64,
+    /// What makes up the first, if that was asked for.
+    pub causes: Option<Causes>,
 }
 
 /// Radiosities of a problem's patches, by environment.
@@ -41,9 +44,15 @@ impl Yardstick {
         Yardstick { answer: Arc::clone(answer), overlaps }
     }
 
-    /// Means over the patches of the answer.
-    pub fn means(&self, radiosity: &Radiosity) -> Vec<Rgb> {
-        self.overlaps.means(&radiosity.concat())
+    /// What the answer says, on its own patches.
+    pub fn radiosity(&self) -> &[Rgb] {
+        &self.answer.radiosity
+    }
+
+    /// Means over the patches of the answer of a solution on those of the problem, one environment
+    /// after the other.
+    pub fn means(&self, radiosity: &[Rgb]) -> Vec<Rgb> {
+        self.overlaps.means(radiosity)
     }
 
     /// How far two solutions, as means over the answer's patches, are apart.
@@ -54,8 +63,13 @@ impl Yardstick {
 
     /// How far a solution is from the answer.
     pub fn errors(&self, radiosity: &Radiosity) -> ErrorFigures {
-        let found = self.between(&self.means(radiosity), &self.answer.radiosity);
-        ErrorFigures { l2: found.relative_l2, maximum: found.maximum, reference: self.answer.error }
+        let found = self.between(&self.means(&radiosity.concat()), self.radiosity());
+        ErrorFigures {
+            l2: found.relative_l2,
+            maximum: found.maximum,
+            reference: self.answer.error,
+            causes: None,
+        }
     }
 }
 
@@ -72,7 +86,7 @@ impl ErrorFigures {
             "error_l2" => self.l2,
             "error_max" => self.maximum,
             "reference_error" => self.reference,
-            _ => return None,
+            _ => return self.causes?.cell(column),
         };
         Some(format!("{value:.6e}"))
     }

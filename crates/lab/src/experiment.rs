@@ -1,5 +1,7 @@
 //! An experiment file, typed: one point of its sweep, every field as the user may write it.
 
+use std::collections::BTreeMap;
+
 use multicomputer::Model;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -121,6 +123,10 @@ pub struct Experiment {
     /// relative to the root mean square of what is reflected.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reference: Option<String>,
+    /// Whether to take each run's error apart, by some more runs: columns error_mask, error_stopping,
+    /// error_directions, error_sampling and error_mesh. It needs a "reference".
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub error_causes: bool,
     /// The error that results are to stay below: the knobs that trade accuracy for time are found by
     /// pilot runs, for each scene the cheapest that will do, and stand in the columns from target_l2
     /// on.
@@ -313,6 +319,17 @@ pub struct Plot {
     /// a line's points, and to tell its exponent. Both axes are logarithmic then.
     #[serde(default, skip_serializing_if = "is_false")]
     pub power_law: bool,
+    /// Whether to draw, in place of lines from point to point, lines through those points only that no
+    /// other betters in x and y at once. Both axes are logarithmic then.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub pareto: bool,
+    /// Runs to be marked: for some columns the values that they have, such as
+    /// {"hemisphere.pixels": 30976}.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub mark: BTreeMap<String, Value>,
+    /// What the marked runs are called. Default: "marked".
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mark_name: Option<String>,
     /// Name of the SVG file, without folder or ending. Default: "<y>-by-<x>".
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
@@ -327,7 +344,8 @@ impl Plot {
 
     /// Whether the horizontal and the vertical axis are logarithmic.
     pub fn logarithmic(&self) -> [bool; 2] {
-        [self.log_x || self.power_law, self.log_y || self.power_law]
+        let both = self.power_law || self.pareto;
+        [self.log_x || both, self.log_y || both]
     }
 }
 

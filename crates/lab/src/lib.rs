@@ -6,7 +6,9 @@
 
 mod accuracy;
 mod answer;
+mod causes;
 mod chart;
+mod cheapest;
 mod check;
 mod columns;
 mod comparison;
@@ -38,6 +40,7 @@ mod networks;
 mod node_memory;
 mod open_machine;
 mod open_scene;
+mod pareto;
 mod pilot;
 mod place;
 mod plan;

@@ -52,6 +52,8 @@ impl fmt::Display for Knobs {
 pub struct Pilot {
     /// Virtual seconds on one processor.
     pub time_s: f64,
+    /// The part of the emitted energy that was not shot.
+    pub unshot: f64,
     /// Mean radiosities over the patches that the experiment asks for, W/m².
     pub means: Vec<Rgb>,
 }
@@ -131,7 +133,8 @@ impl<'a> Pilots<'a> {
         let (figures, radiosity) =
             engine::carry_out(&run, &point, On::Simulation, self.machine, 0, None)?;
         let means = overlaps.means(&radiosity.concat());
-        let pilot = Rc::new(Pilot { time_s: figures.time_s.unwrap_or(0.0), means });
+        let (time_s, unshot) = (figures.time_s.unwrap_or(0.0), figures.energy.unshot);
+        let pilot = Rc::new(Pilot { time_s, unshot, means });
         self.runs.borrow_mut().push((*knobs, Rc::clone(&pilot)));
         (self.watch)(self.count());
         Ok(pilot)

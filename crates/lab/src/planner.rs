@@ -223,17 +223,24 @@ impl Planner<'_> {
         scene: &Scene,
         problem: &Prepared,
     ) -> Result<Option<usize>, Fault> {
-        let Some(name) = draft.typed.reference.as_deref() else { return Ok(None) };
+        let Experiment { reference, error_causes, .. } = &draft.typed;
+        let Some(name) = reference.as_deref() else {
+            let message = "true without a \"reference\"; expected one".to_owned();
+            let fault = || self.fault(draft.point, "error_causes", message);
+            return if *error_causes { Err(fault()) } else { Ok(None) };
+        };
         let refuse = |message| self.fault(draft.point, "reference", message);
         if !scene.geometry.media.is_empty() {
             let message = format!("\"{name}\" knows no \"media\"; expected a scene without them");
             return Err(refuse(message));
         }
+        let (patches, most) = (problem.problem.patches(), answer::MOST_DENSE);
+        if (name == answer::DENSE || *error_causes) && patches > most {
+            let message = format!("a dense solution of {patches} patches; expected at most {most}");
+            return Err(refuse(message));
+        }
         if name == answer::DENSE {
-            let patches = problem.problem.patches();
-            let most = answer::MOST_DENSE;
-            let message = format!("\"{name}\" for {patches} patches; expected at most {most}");
-            return if patches > most { Err(refuse(message)) } else { Ok(None) };
+            return Ok(None);
         }
         let stem = || self.scenes[draft.scene].path.file_stem().unwrap_or_default();
         let name =
@@ -428,6 +435,10 @@ fn check_plots(plan: &Plan, document: &Document) -> Result<(), Fault> {
                 let message = unknown("column", column, &known);
                 return Err(document.fault(&place.key(field), message));
             }
+        }
+        if let Some(column) = plot.mark.keys().find(|&column| !known.contains(column)) {
+            let message = unknown("column", column, &known);
+            return Err(document.fault(&place.key("mark").key(column), message));
         }
         let stem = plot.stem();
         if !is_plain(&stem) {

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use serde_json::Value;
 use viewer::Recorded;
 
+use crate::cheapest;
 use crate::columns;
 use crate::console::{Line, lines};
 use crate::experiment::experiment_schema;
@@ -38,6 +39,7 @@ pub fn html(
     let figures: String = figures.collect();
     let ratios = if compared.is_empty() { "" } else { RATIOS };
     let grouped = grouped(&lines(runs, sweeps));
+    let cheapest = cheapest(runs, sweeps);
     let all = table(&shown_columns(runs), runs);
     let choices = choices(manifest);
     let problems = problems(manifest);
@@ -50,7 +52,7 @@ pub fn html(
          <meta name=\"viewport\" content=\"width=device-width\">\n<title>{title}</title>\n\
          <style>\n{STYLE}{viewer_style}</style>\n</head>\n<body>\n\
          <h1>{title}</h1>\n{lead}{summary}{warnings}{found}{answers}{figures}\
-         <h2>Runs</h2>\n{ratios}{grouped}\
+         {cheapest}<h2>Runs</h2>\n{ratios}{grouped}\
          <details><summary>All columns</summary>\n{all}</details>\n\
          <h2>Choices</h2>\n\
          <p>What the paper leaves open, and what this experiment takes.</p>\n{choices}\
@@ -131,6 +133,26 @@ fn grouped(lines: &[Line]) -> String {
          <tr><th></th><th colspan=\"2\">simulated</th><th colspan=\"2\">paper</th><th></th><th></th></tr>\n\
          <tr><th>processors</th><th>time s</th><th>speed-up</th><th>time s</th><th>speed-up</th>\
          <th>ratio</th><th></th></tr>\n</thead>\n<tbody>\n{rows}</tbody>\n</table></div>\n"
+    )
+}
+
+/// What accuracy costs, where runs tell their errors.
+fn cheapest(runs: &Table, sweeps: &[String]) -> String {
+    let cheapest = cheapest::cheapest(runs, sweeps);
+    if cheapest.is_empty() {
+        return String::new();
+    }
+    let row = |c: &cheapest::Cheapest| {
+        let cells = c.cells();
+        let cells = cells.iter().map(|cell| format!("<td class=\"text\">{}</td>", escape(cell)));
+        format!("<tr>{}</tr>\n", cells.collect::<String>())
+    };
+    let rows: String = cheapest.iter().map(row).collect();
+    let head = ["scene", "error at most", "time s", "found", "cheapest setting"];
+    let head = head.map(|cell| format!("<th class=\"text\">{cell}</th>")).concat();
+    format!(
+        "<h2>What accuracy costs</h2>\n<div class=\"wide\"><table>\n<thead><tr>{head}</tr></thead>\n\
+         <tbody>\n{rows}</tbody>\n</table></div>\n"
     )
 }
 

@@ -8,6 +8,7 @@ use serde_json::{Map, Value, json};
 use viewer::Recorded;
 
 use crate::chart;
+use crate::cheapest;
 use crate::console::table_text;
 use crate::digest::sha256;
 use crate::document::Document;
@@ -125,7 +126,7 @@ impl Results {
 
     /// The table for a terminal.
     pub fn text(&self) -> String {
-        table_text(&self.table, &self.sweeps())
+        table_text(&self.table, &self.sweeps()) + &cheapest::text(&self.table, &self.sweeps())
     }
 
     /// How many runs failed.

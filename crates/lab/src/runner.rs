@@ -11,6 +11,7 @@ use viewer::Film;
 use virtwall::{Helpers, KeptShots, Memory, SharedObserver, ShotCounts};
 
 use crate::answer::DenseAnswers;
+use crate::causes::Explained;
 use crate::engine::{self, On};
 use crate::errors::{ErrorFigures, Radiosity, Yardstick};
 use crate::figures::Figures;
@@ -183,9 +184,8 @@ impl Desk<'_> {
 
     /// Saves how a run ended and what it took.
     fn note(&self, task: &Task, ended: Ended, host: HostTimes) -> io::Result<()> {
-        let ending = ended.map(|(figures, radiosity)| Figures {
-            errors: self.errors(task, &radiosity),
-            ..figures
+        let ending = ended.and_then(|(figures, radiosity)| {
+            Ok(Figures { errors: self.errors(task, &radiosity)?, ..figures })
         });
         let run = task.run;
         let stored = match &ending {
@@ -214,11 +214,19 @@ impl Desk<'_> {
     }
 
     /// How far a run is from the answer, if there is one; no part of what the run took of the host.
-    fn errors(&self, task: &Task, radiosity: &Radiosity) -> Option<ErrorFigures> {
+    fn errors(&self, task: &Task, radiosity: &Radiosity) -> Result<Option<ErrorFigures>, String> {
         let run = &self.plan.runs[task.run];
-        let answer = self.plan.answer(run, &self.dense)?;
+        let Some(answer) = self.plan.answer(run, &self.dense) else { return Ok(None) };
         let problem = &self.plan.problems[run.problem].problem;
-        Some(Yardstick::new(&answer, problem).errors(radiosity))
+        let yardstick = Yardstick::new(&answer, problem);
+        let mut errors = yardstick.errors(radiosity);
+        if run.point.error_causes {
+            let machine = &self.plan.machines[run.machine].machine;
+            let run = Explained { point: &run.point, problem, machine, kept: &task.kept };
+            let dense = self.dense.of(problem);
+            errors.causes = Some(run.causes(radiosity, &yardstick, &dense)?);
+        }
+        Ok(Some(errors))
     }
 
     /// Carries a run out, and writes its trace if there is to be one.

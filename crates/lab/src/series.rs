@@ -1,12 +1,14 @@
 //! What a plot shows: points of simulated and published figures, line by line.
 
+use crate::columns;
 use crate::experiment::Plot;
 use crate::measure::Measure;
+use crate::pareto;
 use crate::power_law::PowerLaw;
 use crate::table::Table;
 
 /// One line of a plot.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Series {
     /// Its name, with the law's exponent; empty if there is only one line without a law.
     pub name: String,
@@ -14,6 +16,10 @@ pub struct Series {
     pub simulated: Vec<(f64, f64)>,
     /// Published points, by x.
     pub paper: Vec<(f64, f64)>,
+    /// Those of the simulated points that are to be marked.
+    pub marked: Vec<(f64, f64)>,
+    /// Those that no other betters, if only they are to be joined.
+    pub front: Option<Vec<(f64, f64)>>,
     /// The law to draw through the simulated points, if one is asked for and there is one.
     pub law: Option<PowerLaw>,
 }
@@ -58,20 +64,23 @@ impl Drawing {
             let besides = if swept { sweeps } else { &[] };
             let name = name(table, row, besides, plot);
             let series = line(&mut drawing.series, name);
-            series.simulated.extend(up.value(table, row).map(|y| (x, y)));
+            let point = up.value(table, row).map(|y| (x, y));
+            series.simulated.extend(point);
+            series.marked.extend(point.filter(|_| marked(table, row, plot)));
             series.paper.extend(table.number(row, &paper).map(|y| (x, y)));
         }
         // A logarithm has no place for zero or less.
         let [log_x, log_y] = plot.logarithmic();
         let fits = |(x, y): &(f64, f64)| (!log_x || !numeric || *x > 0.0) && (!log_y || *y > 0.0);
         for series in &mut drawing.series {
-            for points in [&mut series.simulated, &mut series.paper] {
+            for points in [&mut series.simulated, &mut series.paper, &mut series.marked] {
                 points.retain(fits);
                 points.sort_by(|a, b| a.0.total_cmp(&b.0));
             }
             if plot.power_law && numeric {
                 series.add_law();
             }
+            series.front = plot.pareto.then(|| pareto::front(&series.simulated));
         }
         drawing
     }
@@ -106,11 +115,17 @@ fn name(table: &Table, row: &[String], sweeps: &[String], plot: &Plot) -> String
     cells.collect::<Vec<_>>().join(", ")
 }
 
+/// Whether a run is one of those that a plot marks.
+fn marked(table: &Table, row: &[String], plot: &Plot) -> bool {
+    let same = |(name, value): (&String, _)| table.cell(row, name) == columns::cell(value);
+    !plot.mark.is_empty() && plot.mark.iter().all(same)
+}
+
 /// The line of that name, begun if need be.
 fn line(series: &mut Vec<Series>, name: String) -> &mut Series {
     let index = series.iter().position(|line| line.name == name).unwrap_or(series.len());
     if index == series.len() {
-        series.push(Series { name, simulated: Vec::new(), paper: Vec::new(), law: None });
+        series.push(Series { name, ..Series::default() });
     }
     &mut series[index]
 }

@@ -149,7 +149,8 @@ fn stops(pilots: &Pilots, target: f64) -> Result<Vec<Stop>, String> {
     };
     let (_, mut last) = at(0, 1.0, false)?;
     let (mut halvings, mut tail) = (0, f64::INFINITY);
-    while halvings < MOST_HALVINGS && tail > target / 10.0 {
+    // A halving that no patch lies in changes nothing, and says nothing.
+    while halvings < MOST_HALVINGS && (tail > target / 10.0 || last.unshot > target) {
         halvings += 1;
         let (_, next) = at(halvings, 1.0, false)?;
         tail = pilots.difference(&last, &next);
@@ -199,61 +200,6 @@ impl Estimates {
             time_s: time_s * time * self.mesh_ratio.powf(-mesh.log2()),
             target: 0.0,
             pilots: 0,
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::engine;
-    use crate::experiment::Experiment;
-    use crate::find::Found;
-    use crate::scene::Scene;
-    use crate::settings::Settings;
-
-    #[test]
-    fn trial() {
-        let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-        let found = |path: &str| Found { path: root.join(path), label: path.to_owned() };
-        let machine = engine::load_machine(&found("machines/paragon-xps.json")).unwrap().machine;
-        let name = std::env::var("SCENE").unwrap_or("room4".to_owned());
-        let scene = Scene::load(&found(&format!("scenes/{name}.json"))).unwrap();
-        let point = Experiment::of_one_environment(&name);
-        let settings = Settings::of(&point, &scene).unwrap();
-        let pilots =
-            Pilots::new(&point, &settings, &scene.geometry, &machine, 1 << 31, &|_| ()).unwrap();
-        for target in [0.1, 0.03, 0.01] {
-            let e = estimate(&pilots, target).unwrap();
-            eprintln!(
-                "target {target}: directions {:?} centre {} mesh {:?} ratio {} fixed {} {}",
-                e.directions, e.centre, e.meshes, e.mesh_ratio, e.fixed, e.a_pixel
-            );
-            if target == 0.03 {
-                for s in &e.stops {
-                    eprintln!(
-                        "  stop {:.5} {} {} error {:.5} time {:.2}",
-                        s.threshold, s.overshoot, s.ambient, s.error, s.time_s
-                    );
-                }
-            }
-            let tuned = tune(&pilots, target);
-            eprintln!("{tuned:?}");
-            if let Ok(tuned) = tuned {
-                let run = pilots.run(&tuned.knobs).unwrap();
-                eprintln!("  took {} s", run.time_s);
-                // Far better in every respect.
-                let k = Knobs {
-                    mesh: 0.25,
-                    pixels: 16384,
-                    split: 1,
-                    threshold: 0.0002,
-                    overshoot: 1.0,
-                    ambient: true,
-                };
-                let best = pilots.run(&k).unwrap();
-                eprintln!("  came out {}", pilots.difference(&run, &best));
-            }
         }
     }
 }

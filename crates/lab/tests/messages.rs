@@ -277,7 +277,7 @@ fn files_that_an_experiment_names_are_refused_at_their_own_places() {
             "scenes/box.json",
             r#"{"obj": "box.obj", "patch_size": "1 m", "media":
                 [{"min": [0, 0, 0], "max": [1, 1, 1], "absorption": "1 /m"}]}"#,
-            "experiments/x.json:1: reference: \"dense\" knows no \"media\"; expected a scene without them",
+            "experiments/x.json:2: reference: \"dense\" knows no \"media\"; expected a scene without them",
         ),
         (
             "scenes/box.json",

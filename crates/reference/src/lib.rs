@@ -3,6 +3,7 @@
 //!
 //! Knows nothing of processors, messages or time, nor of files.
 
+mod centres;
 pub mod closed_form;
 mod conjugate;
 mod cubature;
@@ -20,6 +21,7 @@ mod ring;
 mod sampling;
 mod stored;
 
+pub use centres::Centres;
 pub use cubature::{Estimate, Tolerance};
 pub use dense::{Dense, Solution};
 pub use difference::{Difference, Overlaps};

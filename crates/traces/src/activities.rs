@@ -54,6 +54,6 @@ mod tests {
 
     #[test]
     fn numbers_are_places() {
-        assert!(activities().map(number).eq(0..18));
+        assert!(activities().map(number).eq(0..19));
     }
 }

@@ -65,7 +65,7 @@ fn write_lane(packets: &mut Packets, rank: usize, lane: &Lane, is_service_node: 
     let name = if is_service_node { "service node".to_owned() } else { format!("node {rank}") };
     packets.track((track, RUN), &name, |track| track.number(field::TRACK_RANK, rank as u64 + 10));
     let mut sequence = packets.sequence(track, intern);
-    let mut shots = lane.node.shots.iter();
+    let mut shots = lane.node.shots.iter().peekable();
     for (time, mark) in lane.marks(false) {
         packets.event(&mut sequence, time, |event| match mark {
             Mark::End => event.number(field::EVENT_TYPE, END),
@@ -74,7 +74,9 @@ fn write_lane(packets: &mut Packets, rank: usize, lane: &Lane, is_service_node: 
                 let numbers = numbers.iter().filter(|&&number| lane.sample.holds(number));
                 match activity {
                     Activity::LocalShot | Activity::ReceivedShot => {
-                        if let Some(shot) = shots.next() {
+                        // A wall patch shoots all its bins at once: the first one stands for them.
+                        while shots.next_if(|shot| shot.at <= time).is_some() {}
+                        if let Some(shot) = shots.peek() {
                             note(event, Note::Environment, shot.environment.into());
                             note(event, Note::SourceEnvironment, shot.source_environment.into());
                             note(event, Note::Patch, shot.patch.into());

@@ -1,8 +1,10 @@
 // Energy over time, and light's distance from the last instant, as SVG.
 
+/** Of a chart, in pixels; as wide as there is room. */
 const FRAME = { width: 560, height: 250, left: 54, right: 78, top: 12, bottom: 34 };
 const ENERGY = [
   ["absorbed", "absorbed"], ["transit", "in transit"], ["unshot", "unshot"], ["escaped", "escaped"],
+  ["medium", "absorbed by media"],
 ];
 const QUALITY_FLOOR = 1e-3;
 
@@ -14,6 +16,9 @@ class Charts {
       if (names.has("time")) this.moveCursors();
       if (names.has("light")) this.tellBalance();
     });
+    new ResizeObserver(() => {
+      if (state.run && byId("energy").clientWidth !== FRAME.width) this.redraw();
+    }).observe(byId("energy").parentElement);
     for (const id of ["energy", "quality"]) byId(id).addEventListener("click", (event) => this.click(event));
   }
 
@@ -24,11 +29,12 @@ class Charts {
   }
 
   redraw() {
+    FRAME.width = Math.max(280, byId("energy").clientWidth);
     this.drawEnergy();
     const { run } = this.state;
     this.drawQuality([run]);
-    // The other runs of the scene are read when the page has nothing else to do.
-    this.viewer.runsOf(run.scene).then((runs) => {
+    // Its siblings are read when the page has nothing else to do.
+    this.viewer.siblings(run).then((runs) => {
       if (this.state.run === run) this.drawQuality(runs);
     });
   }
@@ -37,7 +43,7 @@ class Charts {
     const { run } = this.state;
     const samples = this.course(run);
     const first = samples[0];
-    const whole = first.absorbed + first.unshot + first.transit + first.escaped || 1;
+    const whole = first.unshot || 1;
     const x = scale(0, run.end, FRAME.left, FRAME.width - FRAME.right);
     const y = scale(0, 1, FRAME.height - FRAME.bottom, FRAME.top);
     const parts = axes(x, y, [0, 0.25, 0.5, 0.75, 1].map((v) => [v, `${100 * v} %`]), run.end);
@@ -104,8 +110,10 @@ class Charts {
     const { energy, emitted } = this.state.light;
     const share = (value, digits) => `${Math.abs((100 * value) / (emitted || 1)).toFixed(digits)} %`;
     const sum = ENERGY.reduce((all, [key]) => all + energy[key], 0);
+    const parts = ENERGY.filter(([key]) => key !== "medium" || energy.medium > 0);
+    const shown = parts.map(([key, name]) => `${name} ${share(energy[key], 1)}`);
     byId("balance").textContent =
-      `${ENERGY.map(([key, name]) => `${name} ${share(energy[key], 1)}`).join(", ")}; together ${share(sum, 4)} of what is emitted.`;
+      `${shown.join(", ")}; together ${share(sum, 4)} of what is emitted.`;
   }
 
   click(event) {

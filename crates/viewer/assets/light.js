@@ -21,7 +21,7 @@ class Light {
     this.radiosity.set(this.emission);
     this.missing = this.missingAtFirst;
     this.done = 0;
-    this.energy = { absorbed: 0, unshot: this.emitted, transit: 0, escaped: 0 };
+    this.energy = { absorbed: 0, transit: 0, unshot: this.emitted, escaped: 0, medium: 0 };
   }
 
   /** Root mean square, over the area, of the light still to come; of what came in the whole run. */
@@ -41,7 +41,7 @@ class Light {
   /** §4.2.3: a shot updates the radiosities of the patches that it hits. */
   receive(span) {
     const { last, run: { scene, spans } } = this;
-    const { unit, starts, patches, weights, environments, backs, escaped, outgoing } = scene.shots;
+    const { unit, starts, patches, weights, environments, backs, escaped, medium, outgoing } = scene.shots;
     const shot = spans.shot[span];
     const power = spans.powers.subarray(3 * spans.source[span], 3 * spans.source[span] + 3);
     const first = scene.patchStarts[environments[shot]];
@@ -62,11 +62,12 @@ class Light {
       }
     }
     const local = spans.kinds[span] === LOCAL;
-    const all = arriving + (backs[shot] + escaped[shot] + outgoing[shot]) * unit;
+    const all = arriving + (backs[shot] + escaped[shot] + medium[shot] + outgoing[shot]) * unit;
     energy[local ? "unshot" : "transit"] -= sum * (local ? 1 : all);
     energy.unshot += reflected;
     energy.absorbed += sum * (arriving + backs[shot] * unit) - reflected;
     energy.escaped += sum * escaped[shot] * unit;
+    energy.medium += sum * medium[shot] * unit;
     energy.transit += sum * outgoing[shot] * unit;
   }
 }

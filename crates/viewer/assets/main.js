@@ -50,11 +50,11 @@ class Viewer {
     return this.runs.get(number);
   }
 
-  /** All runs of a scene that are in the report, read one by one in idle time. */
-  async runsOf(scene) {
+  /** All runs that differ from one in the number of processors alone, read one by one. */
+  async siblings(run) {
     const runs = [];
     for (let i = 0; i < this.index.runs.length; i++) {
-      if (this.index.scenes[this.index.runs[i].scene].name !== scene.name) continue;
+      if (this.index.runs[i].group !== run.index.group) continue;
       await new Promise((done) => setTimeout(done, 20));
       runs.push(await this.run(i));
     }

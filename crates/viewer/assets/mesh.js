@@ -113,8 +113,8 @@ class Mesh {
         ? this.route(from[i], to[i]).map(([c, r]) => [this.margin + (c + 0.5) * this.pitch, this.margin + (r + 0.5) * this.pitch])
         : [this.place(from[i]), this.place(to[i])];
       context.globalAlpha = age > 0 ? 0.9 * (1 - age / trace) : 1;
-      context.strokeStyle = context.fillStyle = ink(kind[i] === 0 ? "received" : kind[i] === 5 ? "token" : "overhead");
-      context.lineWidth = kind[i] === 0 ? 2.5 : 1;
+      context.strokeStyle = context.fillStyle = ink(kind[i] === SOURCE ? "received" : kind[i] === TOKEN ? "token" : "overhead");
+      context.lineWidth = kind[i] === SOURCE ? 2.5 : 1;
       context.beginPath();
       points.forEach((point, n) => (n ? context.lineTo(...point) : context.moveTo(...point)));
       context.stroke();

@@ -12,7 +12,8 @@ const DOING = [
   { key: "held", name: "waiting for room" },
 ];
 const [LOCAL, RECEIVED] = [0, 1];
-const MESSAGES = ["source", "radiosity update", "collection", "sums", "stop", "token", "end"];
+/** Kinds of messages, by their numbers in virtwall/src/message.rs. */
+const [SOURCE, TOKEN] = [0, 5];
 
 class Run {
   static async load(index, scene) {

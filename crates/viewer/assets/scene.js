@@ -62,7 +62,7 @@ class Shots {
     this.starts = starts(hits);
     this.patches = columns.ints();
     this.weights = columns.ints();
-    [this.backs, this.escaped, this.outgoing] = [columns.ints(), columns.ints(), columns.ints()];
+    [this.backs, this.escaped, this.medium, this.outgoing] = [0, 1, 2, 3].map(() => columns.ints());
     for (let shot = 0; shot < hits.length; shot++) {
       for (let i = this.starts[shot] + 1; i < this.starts[shot + 1]; i++) {
         this.patches[i] += this.patches[i - 1];

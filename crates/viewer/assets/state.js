@@ -17,11 +17,13 @@ class State {
     this.listeners.forEach((listener) => listener(names));
   }
 
-  /** Shows a run from its last instant. */
+  /** Shows a run from its last instant; what was chosen of the scene stays so, if it is the same scene. */
   open(run) {
     const light = new Light(run);
     light.goTo(run.end);
-    this.set({ run, light, time: run.end, window: [0, run.end], choice: { kind: "scene" } });
+    const fields = { run, light, time: run.end, window: [0, run.end] };
+    const same = this.run?.scene === run.scene && this.choice.kind !== "processor";
+    this.set(same ? fields : { ...fields, choice: { kind: "scene" } });
   }
 
   goTo(wanted) {

@@ -261,7 +261,7 @@ class Timeline {
     for (const i of this.inSight()) {
       const [x1, y1] = [this.x(messages.sent[i]), this.middle(messages.from[i])];
       const [x2, y2] = [this.x(messages.arrived[i]), this.middle(messages.to[i])];
-      context.globalAlpha = messages.kind[i] === 0 ? 0.8 : 0.3;
+      context.globalAlpha = messages.kind[i] === SOURCE ? 0.8 : 0.3;
       context.beginPath();
       context.moveTo(x1, y1);
       context.lineTo(x2, y2);

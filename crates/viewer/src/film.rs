@@ -27,6 +27,8 @@ pub(crate) struct Beam {
     pub hits: Vec<(u32, f32)>,
     pub backs: f64,
     pub escaped: f64,
+    /// Form factor of what participating media absorbed.
+    pub medium: f64,
     /// Form factor of what went on to neighbours.
     pub outgoing: f64,
 }
@@ -85,6 +87,7 @@ impl Observer for Film {
                 .collect(),
             backs: shot.backs,
             escaped: shot.escaped,
+            medium: shot.medium,
             outgoing: shot.outgoing.iter().flatten().map(|out| out.form_factor).sum(),
         });
     }
@@ -126,10 +129,10 @@ impl Doing {
             Activity::Selection => Doing::Selection,
             Activity::LocalShot => Doing::LocalShot,
             Activity::ReceivedShot => Doing::ReceivedShot,
-            Activity::Send(MessageKind::Source | MessageKind::Update)
-            | Activity::Pack
-            | Activity::Forward => Doing::Sending,
-            Activity::Send(_) => Doing::Control,
+            Activity::Send(MessageKind::Token | MessageKind::Done) => Doing::Control,
+            Activity::Send(MessageKind::Collect | MessageKind::Sums) => Doing::Control,
+            Activity::Send(MessageKind::StopSelecting) => Doing::Control,
+            Activity::Send(_) | Activity::Pack | Activity::Forward => Doing::Sending,
             Activity::Receive | Activity::Copy => Doing::Receiving,
             Activity::WaitForRoom | Activity::WaitForDisplay => Doing::Held,
             Activity::Paging => Doing::Paging,

@@ -8,12 +8,15 @@ mod answers;
 mod budget;
 mod columns;
 mod critical;
+mod data;
 mod film;
 mod ledger;
 mod page;
 mod reel;
 mod run;
 mod scene;
+#[cfg(test)]
+mod tests;
 
 pub use film::Film;
 pub use page::{MARKUP, Recorded, STYLE, program};

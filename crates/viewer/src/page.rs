@@ -1,16 +1,10 @@
 //! The viewer's part of a report: its markup, its blocks of data, its program.
 
-use std::sync::Arc;
-
-use serde_json::{Value, json};
-use virtwall::Problem;
+use serde_json::Value;
 
 use crate::answers;
-use crate::budget::affordable;
-use crate::columns::Columns;
-use crate::reel::{Reel, Told, places};
-use crate::run;
-use crate::scene::{Shots, geometry};
+use crate::data::Data;
+use crate::reel::{Reel, Told};
 
 /// The viewer without its data.
 pub const MARKUP: &str = include_str!("../assets/viewer.html");
@@ -36,9 +30,6 @@ const PROGRAM: [&str; 16] = [
     include_str!("../assets/main.js"),
 ];
 
-/// The most messages of a run that a report holds.
-const MOST_MESSAGES: usize = 60_000;
-
 /// What a report holds of its recorded runs.
 pub struct Recorded {
     /// In words and in a table: what happened and why.
@@ -54,8 +45,8 @@ impl Recorded {
     /// The recordings of some runs, at most about `limit` bytes of them.
     pub fn of(reels: &[Reel], limit: usize) -> Recorded {
         let told: Vec<Told> = reels.iter().map(Told::of).collect();
-        let Data { index, blocks } = Data::of(&told, limit);
-        let index = embedded(&index);
+        let data = Data::of(&told, limit);
+        let (index, blocks) = (embedded(&data.index), data.packed());
         let index =
             format!("<script type=\"application/json\" id=\"viewer-index\">{index}</script>\n");
         Recorded { answers: marked(&answers(&told)), data: marked(&(index + &blocks)) }
@@ -114,100 +105,6 @@ fn answers(told: &[Told]) -> String {
         }
     }
     text
-}
-
-/// The blocks of a page, and what lies where.
-struct Data {
-    index: Value,
-    blocks: String,
-}
-
-impl Data {
-    fn of(told: &[Told], limit: usize) -> Data {
-        let shown = affordable(told, limit);
-        let told: Vec<&Told> =
-            told.iter().zip(&shown).filter(|(_, shown)| **shown).map(|(told, _)| told).collect();
-        let mut problems: Vec<&Arc<Problem>> = Vec::new();
-        for one in &told {
-            if !problems.iter().any(|problem| Arc::ptr_eq(problem, one.reel.problem)) {
-                problems.push(one.reel.problem);
-            }
-        }
-        let mut data = Data { index: Value::Null, blocks: String::new() };
-        let (mut scenes, mut runs) = (Vec::new(), vec![Value::Null; told.len()]);
-        let mut sampled = Vec::new();
-        if told.len() < shown.len() {
-            sampled.push(format!(
-                "{} of {} recorded runs are here; with more the page would be too large",
-                told.len(),
-                shown.len()
-            ));
-        }
-        for (number, problem) in problems.iter().enumerate() {
-            let mine =
-                || told.iter().enumerate().filter(|(_, t)| Arc::ptr_eq(t.reel.problem, problem));
-            let shots = Shots::of(mine().map(|(_, told)| told.reel.film));
-            let name = mine().next().map_or("", |(_, told)| told.reel.scene.as_str());
-            let answer = mine().find_map(|(_, told)| told.reel.answer.as_ref());
-            let answer = answer.map(|answer| {
-                let mut columns = Columns::default();
-                columns.floats(answer.iter().flat_map(|rgb| rgb.to_array()));
-                data.add(&format!("reference-{number}"), &columns)
-            });
-            scenes.push(json!({
-                "name": name,
-                "block": data.add(&format!("scene-{number}"), &geometry(problem)),
-                "shots": data.add(&format!("shots-{number}"), &shots.columns(problem)),
-                "reference": answer,
-            }));
-            for (run, told) in mine() {
-                let messages = told.reel.film.recording.messages.len();
-                let every = messages.div_ceil(MOST_MESSAGES).max(1);
-                if every > 1 {
-                    sampled.push(format!("{}, one message of {every}", told.reel.label));
-                }
-                let columns =
-                    run::columns(told.reel.film, &told.reel.owners, &shots, &told.path, every);
-                runs[run] = entry(told, number, data.add(&format!("run-{run}"), &columns));
-            }
-        }
-        data.index = json!({
-            "scenes": scenes,
-            "runs": runs,
-            "first": first(&told),
-            "note": match sampled.is_empty() {
-                true => "All that was recorded is here: every shot, span and message.".to_owned(),
-                false => format!("Sampled: {}.", sampled.join("; ")),
-            },
-        });
-        data
-    }
-
-    fn add(&mut self, id: &str, columns: &Columns) -> String {
-        let packed = columns.pack();
-        self.blocks +=
-            &format!("<script type=\"application/octet-stream\" id=\"{id}\">{packed}</script>\n");
-        id.to_owned()
-    }
-}
-
-fn entry(told: &Told, scene: usize, block: String) -> Value {
-    json!({
-        "label": told.reel.label,
-        "group": told.reel.group,
-        "scene": scene,
-        "processors": told.processors(),
-        "time_s": told.seconds(),
-        "machine": places(told.reel),
-        "block": block,
-    })
-}
-
-/// The run that is shown first: of the first group the one on the most processors.
-fn first(told: &[&Told]) -> usize {
-    let group = told.first().map_or(0, |one| one.reel.group);
-    let mine = told.iter().enumerate().filter(|(_, one)| one.reel.group == group);
-    mine.max_by_key(|(_, one)| one.processors()).map_or(0, |(run, _)| run)
 }
 
 fn escape(text: &str) -> String {

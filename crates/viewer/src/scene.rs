@@ -67,13 +67,18 @@ impl<'a> Shots<'a> {
         self.numbers.get(&beam.key).copied().unwrap_or_default()
     }
 
-    /// All of them as columns; form factors count in pixels, or sixteenths of them where pixels differ.
+    /// All of them as columns; form factors count in pixels, or 256ths of them where pixels differ or
+    /// media dim them.
     pub fn columns(&self, problem: &Problem) -> Columns {
-        let weights = &problem.hemisphere.weights;
-        let equal = weights.iter().all(|&weight| weight == weights[0]);
-        let unit = 1.0 / f64::from(problem.hemisphere.pixels()) / if equal { 1.0 } else { 16.0 };
-        let units = |form_factor: f64| (form_factor / unit).round() as u64;
         let beams = || self.beams.iter();
+        let pixels = f64::from(problem.hemisphere.pixels());
+        let whole = |hit: &(u32, f32)| {
+            let count = f64::from(hit.1) * pixels;
+            (count - count.round()).abs() < 0.01
+        };
+        let all_whole = beams().flat_map(|beam| &beam.hits).all(whole);
+        let unit = 1.0 / pixels / if all_whole { 1.0 } else { 256.0 };
+        let units = |form_factor: f64| (form_factor / unit).round() as u64;
         let mut columns = Columns::default();
         columns.floats([unit]);
         columns.ints(beams().map(|beam| u64::from(beam.environment)));
@@ -85,6 +90,7 @@ impl<'a> Shots<'a> {
         columns.ints(beams().flat_map(|beam| beam.hits.iter().map(|hit| units(f64::from(hit.1)))));
         columns.ints(beams().map(|beam| units(beam.backs)));
         columns.ints(beams().map(|beam| units(beam.escaped)));
+        columns.ints(beams().map(|beam| units(beam.medium)));
         columns.ints(beams().map(|beam| units(beam.outgoing)));
         columns
     }

@@ -162,9 +162,6 @@ impl ComputeNode {
             }
             (None, None) => None,
         };
-        if let Some(source) = choice.as_ref().and_then(|source| source.first()) {
-            process.observe(|to| to.selected(process.now(), process.rank(), source));
-        }
         self.foresee_local();
         choice
     }
@@ -192,6 +189,9 @@ impl ComputeNode {
         process: &impl Process,
         source: &[Parcel],
     ) -> Vec<Shot> {
+        for part in source {
+            process.observe(|to| to.selected(process.now(), process.rank(), part));
+        }
         let environment = source.first().map(|part| footprint::environment(part.environment));
         process.touch([footprint::PROGRAM].into_iter().chain(environment)).await;
         let Shared { problem, kept, on_shot, .. } = &*self.shared;

@@ -5,7 +5,8 @@ use radiosity::{Rgb, Shot};
 use crate::message::Parcel;
 use crate::outcome::EnergyLedger;
 
-/// A source that has been selected and not been shot yet is in transit, too.
+/// A source that has been selected and not been shot yet is in transit, too, and so is what virtual walls
+/// have gathered.
 impl EnergyLedger {
     /// Before the first shot: all is unshot.
     pub fn at_first(emitted: Rgb) -> EnergyLedger {

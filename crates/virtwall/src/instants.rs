@@ -11,6 +11,7 @@ use desim::Time;
 use multicomputer::{Machine, Network, Rank};
 use radiosity::{Light, Rgb, Shot};
 
+use crate::ambient;
 use crate::message::Parcel;
 use crate::observer::{Observer, SharedObserver};
 use crate::outcome::{EnergyLedger, Outcome};
@@ -26,14 +27,24 @@ pub struct Instant<'a> {
     pub energy: EnergyLedger,
     problem: &'a Problem,
     light: &'a [Light],
+    ambient: bool,
 }
 
 impl Instant<'_> {
-    /// Radiosity in W/m², by environment and patch.
+    /// Radiosity in W/m², by environment and patch, with the ambient term if the rules say so.
     pub fn radiosity(&self) -> impl Iterator<Item = impl Iterator<Item = Rgb>> {
-        self.problem.environments.iter().zip(self.light).map(|(geometry, light)| {
-            (0..geometry.patches.len() as u32).map(|patch| light.radiosity(geometry, patch))
-        })
+        let Instant { energy, problem, light, .. } = self;
+        let environments = problem.environments.iter().zip(*light);
+        let mut radiosity: Vec<Vec<Rgb>> = environments
+            .map(|(geometry, light)| {
+                let patches = 0..geometry.patches.len() as u32;
+                patches.map(|patch| light.radiosity(geometry, patch)).collect()
+            })
+            .collect();
+        if self.ambient {
+            ambient::add(problem, energy.unshot + energy.in_transit, &mut radiosity);
+        }
+        radiosity.into_iter().map(Vec::into_iter)
     }
 }
 
@@ -43,19 +54,22 @@ struct Follower<V> {
     /// By environment.
     light: Vec<Light>,
     energy: EnergyLedger,
+    ambient: bool,
     /// Instants to come, the next one last.
     times: Vec<Time>,
     visit: V,
 }
 
 impl<V: FnMut(Instant<'_>)> Follower<V> {
-    fn new(problem: &Arc<Problem>, times: &[Time], visit: V) -> Follower<V> {
+    fn new(run: &Run, times: &[Time], visit: V) -> Follower<V> {
+        let problem = &run.problem;
         let light = problem.environments.iter();
         let light = light.map(|geometry| Light::new(&problem.space, geometry)).collect();
         let mut times = times.to_vec();
         times.sort_unstable_by(|one, other| other.cmp(one));
         let energy = EnergyLedger::at_first(problem.emitted_power());
-        Follower { problem: Arc::clone(problem), light, energy, times, visit }
+        let ambient = run.rules.shooting.ambient;
+        Follower { problem: Arc::clone(problem), light, energy, ambient, times, visit }
     }
 
     /// Something happens now: shows the instants before.
@@ -67,8 +81,8 @@ impl<V: FnMut(Instant<'_>)> Follower<V> {
 
     fn show_next(&mut self) {
         let Some(time) = self.times.pop() else { return };
-        let Follower { problem, light, energy, .. } = self;
-        (self.visit)(Instant { time, energy: *energy, problem, light });
+        let Follower { problem, light, energy, ambient, .. } = self;
+        (self.visit)(Instant { time, energy: *energy, problem, light, ambient: *ambient });
     }
 }
 
@@ -93,7 +107,7 @@ pub fn visit_instants(
     times: &[Time],
     visit: impl FnMut(Instant<'_>) + 'static,
 ) -> Result<Outcome, RunError> {
-    let follower = Rc::new(RefCell::new(Follower::new(&run.problem, times, visit)));
+    let follower = Rc::new(RefCell::new(Follower::new(run, times, visit)));
     let observer: SharedObserver = follower.clone();
     let outcome = simulate_observed(run, machine, network, Some(observer))?;
     let mut follower = follower.borrow_mut();

@@ -87,9 +87,9 @@ pub struct EnergyAt {
     pub at: Time,
     /// On patches, not shot.
     pub unshot: f64,
-    /// In sources selected or handed on, and not shot yet.
+    /// In sources selected or handed on, and not shot yet, and gathered by virtual walls.
     pub in_transit: f64,
-    /// Absorbed by patches and by backs of polygons.
+    /// Absorbed by patches, by backs of polygons and by participating media.
     pub absorbed: f64,
     /// Gone out of the scene.
     pub escaped: f64,
@@ -101,7 +101,7 @@ impl EnergyAt {
             at,
             unshot: ledger.unshot.element_sum(),
             in_transit: ledger.in_transit.element_sum(),
-            absorbed: ledger.absorbed.element_sum(),
+            absorbed: (ledger.absorbed + ledger.medium).element_sum(),
             escaped: ledger.escaped.element_sum(),
         }
     }

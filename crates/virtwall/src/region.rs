@@ -10,7 +10,7 @@ use crate::gathered::Gathered;
 use crate::message::{Parcel, PatchUpdate, WallPatch};
 use crate::problem::Problem;
 use crate::rules::{Rules, Selection};
-use crate::shooting::{Shooting, SourceSplit};
+use crate::shooting::Shooting;
 
 /// What one processor owns of the scene.
 pub struct Region {
@@ -156,11 +156,6 @@ impl Region {
         let geometry = &environments[*environment as usize];
         let mut source = light.source(space, geometry, *environment, patch);
         source.power *= self.share(holding, patch);
-        let SourceSplit { nearer_than, most } = self.shooting.split;
-        let along = match nearer_than.is_finite() {
-            true => geometry.parts_needed(space, patch, nearer_than, most),
-            false => most,
-        };
         let parcel = |part: Part| Parcel {
             environment: *environment,
             source: Source { centre: part.centre, power: source.power * part.share, ..source },
@@ -168,7 +163,8 @@ impl Region {
             form_factor: 1.0,
             through: None,
         };
-        geometry.parts(space, patch, along).into_iter().map(parcel).collect()
+        let parts = self.shooting.split.parts(space, geometry, patch);
+        parts.into_iter().map(parcel).collect()
     }
 
     /// Update the radiosities of the environment in which a source was shot. Returns the power that

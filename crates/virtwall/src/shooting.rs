@@ -1,6 +1,6 @@
 //! How a patch is shot, beyond what RR-3008 does: knobs that trade accuracy for time.
 
-use radiosity::Rgb;
+use radiosity::{LocalEnvironment, Part, Rgb, Space};
 
 /// How a patch is shot. The default is what RR-3008 does.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,4 +45,13 @@ pub struct SourceSplit {
 impl SourceSplit {
     /// Patches shoot from their centres.
     pub const NONE: SourceSplit = SourceSplit { nearer_than: f64::INFINITY, most: 1 };
+
+    /// The sources that a patch of an environment is cut into.
+    pub fn parts(&self, space: &Space, environment: &LocalEnvironment, patch: u32) -> Vec<Part> {
+        let along = match self.nearer_than.is_finite() {
+            true => environment.parts_needed(space, patch, self.nearer_than, self.most),
+            false => self.most,
+        };
+        environment.parts(space, patch, along)
+    }
 }

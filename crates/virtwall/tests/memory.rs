@@ -35,11 +35,11 @@ fn building(floors: u16) -> Problem {
 }
 
 fn machine() -> Machine {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../machines/paragon-1024.json");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../machines/paragon-xps.json");
     Machine::from_json(&std::fs::read_to_string(path).unwrap(), path).unwrap()
 }
 
-/// Bytes that a problem takes, bytes that a run on 64 nodes takes besides at most, patches.
+/// Bytes that a problem takes, bytes that a run on 56 nodes takes besides at most, patches.
 fn bytes(floors: u16) -> [f64; 3] {
     let before = HEAP.current_usage();
     let problem = Arc::new(building(floors));
@@ -59,7 +59,7 @@ fn bytes(floors: u16) -> [f64; 3] {
     HEAP.reset_peak_usage();
     let (problem, kept) = (Arc::clone(&problem), Arc::new(KeptShots::new(0)));
     let patches = problem.patches();
-    let run = Run { problem, processors: 64, rules, kept, on_shot: Arc::new(|| ()) };
+    let run = Run { problem, processors: 56, rules, kept, on_shot: Arc::new(|| ()) };
     simulate(&run, &machine()).unwrap();
     [ready - before, HEAP.peak_usage() - ready, patches].map(|count| count as f64)
 }

@@ -12,8 +12,8 @@ use common::{paragon, rules, same, two_rooms_cut};
 use desim::{Duration, Time};
 use multicomputer::{LayerAccount, Machine, MessageLayer, NodeMemory, Packets};
 use virtwall::{
-    Activity, KeptShots, MessageKind, MessageRecord, Outcome, Recording, Rules, Run, Thing,
-    radiosity_at, simulate, simulate_observed, visit_instants,
+    Activity, KeptShots, MessageKind, MessageRecord, Outcome, Recording, Rules, Run, Shooting,
+    SourceSplit, Thing, radiosity_at, simulate, simulate_observed, visit_instants,
 };
 
 fn run(processors: usize, rules: Rules) -> Run {
@@ -99,8 +99,9 @@ fn spans_are_the_account() {
 /// Every shot has its span, which says whose it was and ends when the shot did.
 #[test]
 fn shots_have_their_spans() {
-    for machine in machines() {
-        let (outcome, recording) = record(&run(3, rules()), &machine);
+    let runs = machines().map(|machine| (rules(), machine));
+    for (rules, machine) in runs.into_iter().chain([(knobs(), paragon())]) {
+        let (outcome, recording) = record(&run(3, rules), &machine);
         for (node, report) in recording.nodes.iter().zip(&outcome.nodes) {
             let shots = |span: &virtwall::Span| {
                 matches!(span.activity, Activity::LocalShot | Activity::ReceivedShot)
@@ -150,7 +151,20 @@ fn messages_are_the_counts() {
 /// Energy closes at every change, and the last state is the outcome's.
 #[test]
 fn energy_closes_at_every_instant() {
-    let (outcome, recording) = record(&run(4, Rules { merge_masks: true, ..rules() }), &paragon());
+    for rules in [rules(), Rules { merge_masks: true, ..rules() }, knobs()] {
+        energy_closes(&run(4, rules));
+    }
+}
+
+/// What RR-3008 does not do: patches cut in four, over-shooting, an ambient term.
+fn knobs() -> Rules {
+    let split = SourceSplit { nearer_than: f64::INFINITY, most: 2 };
+    let shooting = Shooting { split, pixels_a_bit: 1, overshoot: 1.2, ambient: true };
+    Rules { patch_threshold: 0.02, shooting, ..rules() }
+}
+
+fn energy_closes(run: &Run) {
+    let (outcome, recording) = record(run, &paragon());
     let emitted = outcome.energy.emitted.element_sum();
     for at in &recording.energy {
         let found = at.unshot + at.in_transit + at.absorbed + at.escaped;
@@ -188,6 +202,18 @@ fn the_light_comes_back_at_any_instant() {
             let emitted = geometry.emitted_power(&run.problem.space, patch);
             assert_eq!(*radiosity, emitted / geometry.radiosity_area(patch));
         }
+    }
+}
+
+/// So it is with the ambient term, but for the order in which energies are summed.
+#[test]
+fn the_ambient_term_comes_back() {
+    let (run, machine) = (run(4, knobs()), paragon());
+    let outcome = simulate(&run, &machine).unwrap();
+    let found = radiosity_at(&run, &machine, machine.network(), &[outcome.time]).unwrap();
+    let pairs = found[0].iter().flatten().zip(outcome.radiosity.iter().flatten());
+    for (found, told) in pairs {
+        assert!(found.abs_diff_eq(*told, 1e-9 * told.max_element()), "{found} {told}");
     }
 }
 

@@ -11,8 +11,8 @@ use multicomputer::{Machine, Network};
 use radiosity::glam::DVec3;
 use radiosity::{Face, Hemisphere, HemisphereKind, Material, PatchSize, Rgb, Scene};
 use virtwall::{
-    KeptShots, Mapping, Outcome, Problem, ProblemOptions, Recording, Rules, Run, Selection, Ties,
-    simulate_observed,
+    KeptShots, Mapping, Outcome, Problem, ProblemOptions, Recording, Rules, Run, Selection,
+    Shooting, Ties, simulate_observed,
 };
 
 /// Processors of the run.
@@ -69,6 +69,8 @@ pub fn record(machine: &Machine, network: Box<dyn Network>) -> (Outcome, Recordi
         radiosity_updates: true,
         merge_masks: false,
         mapping: Mapping::Blocks,
+        shooting: Shooting::default(),
+        wall_threshold: 0.0,
     };
     let run = Run {
         problem: Arc::new(Problem::new(scene(), options).unwrap()),

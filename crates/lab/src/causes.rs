@@ -1,0 +1,136 @@
+//! Where the error of a run comes from: each cause is what changes when it is switched off, the ones
+//! before it being off already.
+
+use std::sync::Arc;
+
+use multicomputer::{Machine, Model};
+use radiosity::Rgb;
+use radiosity::glam::DVec3;
+use reference::{Centres, parallel};
+use serde::{Deserialize, Serialize};
+use virtwall::{KeptShots, Problem};
+
+use crate::answer::Answer;
+use crate::engine::{self, On};
+use crate::errors::{Radiosity, Yardstick};
+use crate::experiment::{Experiment, Stop};
+use crate::knobs;
+use crate::quantity::Fraction;
+
+/// The columns of runs.csv: [`Causes`] by name.
+pub const COLUMNS: [&str; 5] =
+    ["error_mask", "error_stopping", "error_directions", "error_sampling", "error_mesh"];
+
+/// The parts that make up a run's error, as area-weighted root mean squares relative to what is
+/// reflected. As vectors they add up to the error: so it is at most their sum.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Causes {
+    /// Masks coarser than the hemisphere.
+    pub mask: f64,
+    /// What was not shot, over-shooting and the ambient term included.
+    pub stopping: f64,
+    /// Rays in so many directions in place of all.
+    pub directions: f64,
+    /// Shooting from the centres of patches, or of their parts.
+    pub sampling: f64,
+    /// What the patches of the run miss of the answer.
+    pub mesh: f64,
+}
+
+/// A local patch is shot down to this share of what the brightest begins with: what is then left is
+/// no cause any more.
+const ALL_SHOT: &str = "0.0001 %";
+
+/// A run whose error is to be explained.
+pub struct Explained<'a> {
+    /// What was run.
+    pub point: &'a Experiment,
+    /// Scene, mesh and cut.
+    pub problem: &'a Arc<Problem>,
+    /// The machine; its times do not matter here.
+    pub machine: &'a Machine,
+    /// Shots of the problem.
+    pub kept: &'a Arc<KeptShots>,
+}
+
+impl Explained<'_> {
+    /// Takes the run's error apart: against `yardstick`, by way of the dense solution of its own mesh.
+    ///
+    /// # Errors
+    /// Why a run of those that this takes did not end.
+    pub fn causes(
+        &self,
+        radiosity: &Radiosity,
+        yardstick: &Yardstick,
+        dense: &Answer,
+    ) -> Result<Causes, String> {
+        let fine = Experiment {
+            hemisphere: crate::experiment::Hemisphere { pixels_a_bit: 1, ..self.point.hemisphere },
+            ..self.point.clone()
+        };
+        let all_shot = Experiment {
+            stop: Stop {
+                patch_threshold: Fraction::parse(ALL_SHOT)?,
+                energy_threshold: Fraction::parse("0 %")?,
+                ..self.point.stop.clone()
+            },
+            overshoot: 1.0,
+            ambient: false,
+            ..fine.clone()
+        };
+        let with_fine_masks = match self.point.hemisphere.pixels_a_bit {
+            1 => radiosity.concat(),
+            _ => self.run(&fine)?,
+        };
+        // From the run itself to the answer, one cause less at each step.
+        let steps = [
+            radiosity.concat(),
+            with_fine_masks,
+            self.run(&all_shot)?,
+            self.centres(dense).solve(),
+            dense.radiosity.clone(),
+        ];
+        let mut means: Vec<Vec<Rgb>> = steps.iter().map(|step| yardstick.means(step)).collect();
+        means.push(yardstick.radiosity().to_vec());
+        let part = |step: usize| yardstick.between(&means[step], &means[step + 1]).relative_l2;
+        Ok(Causes {
+            mask: part(0),
+            stopping: part(1),
+            directions: part(2),
+            sampling: part(3),
+            mesh: part(4),
+        })
+    }
+
+    /// Radiosities of another run of the problem, one environment after the other.
+    fn run(&self, point: &Experiment) -> Result<Vec<Rgb>, String> {
+        let point = Experiment { network: Some(Model::Ideal), ..point.clone() };
+        let run = engine::run(self.problem, &point, self.kept, Arc::new(|| ()));
+        let (_, radiosity) =
+            engine::carry_out(&run, &point, On::Simulation, self.machine, 0, None)?;
+        Ok(radiosity.concat())
+    }
+
+    /// What shooting from the run's own points finds with a ray in every direction.
+    fn centres(&self, dense: &Answer) -> Centres {
+        let space = &self.problem.space;
+        let split = knobs::shooting(self.point).split;
+        let points = self.problem.environments.iter().flat_map(|environment| {
+            (0..environment.patches.len() as u32).map(move |patch| {
+                let parts = split.parts(space, environment, patch);
+                parts.iter().map(|part| (part.centre, part.share)).collect::<Vec<(DVec3, f64)>>()
+            })
+        });
+        let points: Vec<_> = points.collect();
+        Centres::new(&space.scene, dense.patches.clone(), &points, parallel::host_threads())
+    }
+}
+
+impl Causes {
+    /// The cell of a column.
+    pub fn cell(&self, column: &str) -> Option<String> {
+        let parts = [self.mask, self.stopping, self.directions, self.sampling, self.mesh];
+        let (_, part) = COLUMNS.iter().zip(parts).find(|(name, _)| **name == column)?;
+        Some(format!("{part:.6e}"))
+    }
+}

@@ -1,0 +1,71 @@
+//! The radiosity system with form factors from single points of each patch, exact to rounding: what
+//! shooting from there would find with a ray in every direction.
+
+use radiosity::glam::DVec3;
+use radiosity::{Rgb, Scene};
+
+use crate::pair::Pair;
+use crate::parallel;
+use crate::patches::Patches;
+
+/// Form factors from points of patches.
+pub struct Centres {
+    patches: Patches,
+    /// By source, then by receiver.
+    form_factors: Vec<Vec<f64>>,
+}
+
+/// The system counts as solved when no radiosity changes by more than this, relative to the greatest.
+const SOLVED: f64 = 1e-13;
+/// Rounds after which it is as good as it will get, with reflectances near 1.
+const MOST_ROUNDS: usize = 100_000;
+
+impl Centres {
+    /// Form factors from `points` of each patch, with the share of its power that each sends out.
+    pub fn new(
+        scene: &Scene,
+        patches: Patches,
+        points: &[Vec<(DVec3, f64)>],
+        threads: usize,
+    ) -> Centres {
+        let seen = |from: usize, to: usize| -> f64 {
+            let pair = Pair::new(scene, &patches.surfaces[from], &patches.surfaces[to]);
+            let from_points = |pair: Pair| {
+                points[from].iter().map(|&(point, share)| share * pair.from_element(point)).sum()
+            };
+            pair.map_or(0.0, from_points)
+        };
+        let row = |from: usize| (0..patches.count()).map(|to| seen(from, to)).collect::<Vec<_>>();
+        let form_factors = parallel::map(patches.count(), threads, row, || ());
+        Centres { patches, form_factors }
+    }
+
+    /// The form factor from one patch to another.
+    pub fn form_factor(&self, from: usize, to: usize) -> f64 {
+        self.form_factors[from][to]
+    }
+
+    /// Radiosities, W/m²: what leaves a patch falls on others by these form factors, again and again.
+    pub fn solve(&self) -> Vec<Rgb> {
+        let Patches { areas, reflectance, emission, .. } = &self.patches;
+        let mut radiosity = emission.clone();
+        for _ in 0..MOST_ROUNDS {
+            let mut arriving = vec![Rgb::ZERO; areas.len()];
+            for (from, row) in self.form_factors.iter().enumerate() {
+                let power = radiosity[from] * areas[from];
+                row.iter().zip(&mut arriving).for_each(|(&seen, sum)| *sum += power * seen);
+            }
+            let (mut greatest, mut change) = (0.0_f64, 0.0_f64);
+            for patch in (0..areas.len()).filter(|&patch| areas[patch] > 0.0) {
+                let new = emission[patch] + reflectance[patch] * arriving[patch] / areas[patch];
+                change = change.max((new - radiosity[patch]).abs().max_element());
+                greatest = greatest.max(new.max_element());
+                radiosity[patch] = new;
+            }
+            if change <= SOLVED * greatest {
+                break;
+            }
+        }
+        radiosity
+    }
+}
