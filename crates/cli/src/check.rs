@@ -1,15 +1,16 @@
 //! `virtwall check`: files, validated.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
+use lab::Fault;
 
 use crate::exit::Exit;
 
 /// What to validate.
 #[derive(Args)]
 pub struct Arguments {
-    /// Experiment, machine, trace, scene or OBJ files
+    /// Experiment, machine, trace, scene or OBJ files, or stability cases
     #[arg(required = true)]
     files: Vec<PathBuf>,
 }
@@ -19,7 +20,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let mut output = String::new();
     let mut faults = Vec::new();
     for file in &arguments.files {
-        match lab::check(file) {
+        match check(file) {
             Ok(what) => output += &format!("{}: {what}\n", file.display()),
             Err(fault) => faults.push(fault.to_string()),
         }
@@ -28,4 +29,9 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         return Ok(output);
     }
     Err(Exit { code: 2, output, message: faults.join("\nerror: ") })
+}
+
+/// What a file is.
+fn check(file: &Path) -> Result<String, Fault> {
+    if stability::is_case(file) { stability::check(file) } else { lab::check(file) }
 }

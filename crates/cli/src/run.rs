@@ -114,6 +114,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let preparing = Preparing { threads, memory, on_pilot: &on_pilot };
     let plan = Arc::new(Plan::read(&arguments.file, &set, &preparing)?);
     pilots.end();
+    arguments.viewer.check(&plan).map_err(Exit::bad_input)?;
     let default = || PathBuf::from("results").join(&plan.name);
     let out = arguments.out.clone().unwrap_or_else(default);
     let place = out.display();

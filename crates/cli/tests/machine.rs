@@ -263,6 +263,26 @@ fn what_the_display_and_the_start_up_do_stands_in_the_results() {
 }
 
 #[test]
+fn what_paging_does_stands_in_the_results() {
+    let memory = r#""machine": "gp16", "node_memory": { "available": ["8.5 MiB", "1.5 MiB"] }"#;
+    let text = SWEEP
+        .replace("[64, 256]", "64")
+        .replace("[1, 2, 4]", "4")
+        .replace("\"title\"", &format!("{memory}, \"title\""));
+    let project = Project::new(&text);
+    let gp16 = fs::read_to_string(root().join("machines/paragon-gp16.json")).unwrap();
+    project.write("machines/gp16.json", &gp16);
+    let (code, _, stderr) = virtwall(&project.path(""), &["run", "experiments/x.json"]);
+    assert_eq!((code, stderr.as_str()), (0, ""));
+    let rows = rows(&project);
+    let number = |row: usize, name: &str| cell(&rows[row], name).parse::<f64>().unwrap();
+    // Program and message buffers fill the smaller node; its patches are paged.
+    assert_eq!(number(0, "paging_s"), 0.0);
+    assert!(number(1, "paging_s") > 0.0 && number(1, "time_s") > number(0, "time_s"));
+    assert!(number(1, "memory_high_water") > 0.0);
+}
+
+#[test]
 fn what_a_message_layer_does_stands_in_the_results() {
     let text = SWEEP
         .replace("[64, 256]", "64")

@@ -19,13 +19,13 @@ use crate::settings::{Settings, WrongField};
 /// A setting of the knobs that trade accuracy for time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Knobs {
-    /// Patches are so many times as long as the experiment, or the scene, asks for.
+    /// Patches that do not emit are so many times as long as the experiment, or the scene, asks for.
     pub mesh: f64,
     /// Rays a source.
     pub pixels: u32,
     /// A patch is cut into so many sources along each of its two directions.
     pub split: u32,
-    /// The share of the brightest patch below which none is shot.
+    /// The share of the brightest patch below which none is shot, on the mesh that is asked for.
     pub threshold: f64,
     /// What a patch that does not emit shoots, over what it has not shot.
     pub overshoot: f64,
@@ -33,14 +33,22 @@ pub struct Knobs {
     pub ambient: bool,
 }
 
+impl Knobs {
+    /// The share of the brightest patch below which none is shot. It emits, and is as large on every
+    /// mesh; the others have a share of its light by their area.
+    fn patch_threshold(&self) -> f64 {
+        self.threshold * self.mesh * self.mesh
+    }
+}
+
 impl fmt::Display for Knobs {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Knobs { mesh, pixels, split, threshold, overshoot, ambient } = self;
+        let Knobs { mesh, pixels, split, overshoot, ambient, .. } = self;
         write!(
             f,
             "{pixels} rays a source, sources {split} x {split} a patch, patches {mesh} times as "
         )?;
-        write!(f, "long, shot down to {:.4} %", 100.0 * threshold)?;
+        write!(f, "long, shot down to {:.4} %", 100.0 * self.patch_threshold())?;
         if *overshoot != 1.0 {
             write!(f, " and {overshoot} times over")?;
         }
@@ -104,10 +112,10 @@ impl<'a> Pilots<'a> {
 
     /// The experiment with its knobs set.
     pub fn point(&self, knobs: &Knobs) -> Experiment {
-        let length = |metres: f64| Length::parse(&format!("{} m", metres * knobs.mesh)).ok();
+        let length = |metres: f64| Length::parse(&format!("{metres} m")).ok();
         let mut point = self.base.clone();
         point.accuracy = None;
-        point.patch_size = length(self.settings.patch_size);
+        point.patch_size = length(self.settings.patch_size * knobs.mesh);
         point.emitter_patch_size = length(self.settings.emitter_patch_size);
         point.hemisphere.directions = Directions::Fibonacci;
         point.hemisphere.pixels = knobs.pixels;
@@ -115,7 +123,8 @@ impl<'a> Pilots<'a> {
         point.overshoot = knobs.overshoot;
         point.ambient = knobs.ambient;
         let percent = |share: f64| Fraction::parse(&format!("{} %", 100.0 * share));
-        point.stop.patch_threshold = percent(knobs.threshold).unwrap_or(point.stop.patch_threshold);
+        point.stop.patch_threshold =
+            percent(knobs.patch_threshold()).unwrap_or(point.stop.patch_threshold);
         point
     }
 
@@ -162,7 +171,6 @@ impl<'a> Pilots<'a> {
             None => {
                 let mut settings = self.settings.clone();
                 settings.patch_size *= knobs.mesh;
-                settings.emitter_patch_size *= knobs.mesh;
                 settings.directions = point.hemisphere.directions;
                 settings.pixels = knobs.pixels;
                 let problem = engine::problem(self.scene, &settings);

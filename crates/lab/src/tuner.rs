@@ -116,7 +116,7 @@ fn estimate(pilots: &Pilots, target: f64) -> Result<Estimates, String> {
         stops,
         directions: (directions, pixels),
         centre,
-        meshes: [(2.0, coarser_by + mesh), (1.0, mesh), (0.5, mesh / 4.0), (0.25, mesh / 16.0)],
+        meshes: [(2.0, coarser_by + mesh), (1.0, mesh), (0.5, mesh / 2.0), (0.25, mesh / 4.0)],
         fixed: 1.0 - a_pixel * f64::from(FIRST_PIXELS),
         a_pixel,
         mesh_ratio: one.time_s / coarser.time_s,

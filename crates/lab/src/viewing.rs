@@ -20,6 +20,19 @@ pub enum Viewing {
 }
 
 impl Viewing {
+    /// Makes sure that the rows asked for exist.
+    ///
+    /// # Errors
+    /// The first that does not.
+    pub fn check(&self, plan: &Plan) -> Result<(), String> {
+        let runs = plan.runs.len();
+        let Viewing::Rows(rows) = self else { return Ok(()) };
+        match rows.iter().find(|row| !(1..=runs).contains(row)) {
+            Some(row) => Err(format!("--viewer: no row {row}; expected rows from 1 to {runs}")),
+            None => Ok(()),
+        }
+    }
+
     /// Whether each run of a plan is recorded.
     pub fn chosen(&self, plan: &Plan) -> Vec<bool> {
         let runs = plan.runs.len();

@@ -25,7 +25,8 @@ pub enum End {
     Leaves(Side),
 }
 
-/// [`shoot`](crate::shoot) a ray at a time, each polygon of each cell tested as it comes.
+/// [`shoot`](crate::shoot) a ray at a time, each polygon of each cell tested as it comes, in a scene without
+/// participating media.
 pub fn shoot_plainly(
     space: &Space,
     environment: &LocalEnvironment,

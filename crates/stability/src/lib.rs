@@ -20,4 +20,4 @@ pub use change::{Change, Turn};
 pub use naive::Twin;
 pub use page::{csv, page, svg};
 pub use right::{Exact, Finding, Right, Said};
-pub use suite::{Verdict, cases, try_case};
+pub use suite::{Verdict, cases, check, is_case, try_case};

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use serde_json::Value;
 
-use crate::case::Listed;
+use crate::case::{Listed, Overlay};
 use crate::rays::Count;
 use crate::right::{Finding, Said};
 use crate::suite::Verdict;
@@ -39,8 +39,8 @@ fn row(verdict: &Verdict) -> String {
         let cells: Vec<String> = verdict.findings.iter().map(of).collect();
         cells.into_iter().filter(|cell| !cell.is_empty()).collect::<Vec<_>>().join("<br>")
     };
-    let settings = settings(&Value::Object(case.naive_settings.clone()));
-    let how = case.naive.map_or(settings, |twin| twin.words().to_owned());
+    let set = || format!("`{}`", settings(&case.naive_settings, "")).replace("``", "");
+    let how = case.naive.map_or_else(set, |twin| twin.words().to_owned());
     let naive = each(&|finding| {
         finding.naive.as_ref().map_or(String::new(), |said| told(finding.measure, said))
     });
@@ -61,14 +61,14 @@ fn row(verdict: &Verdict) -> String {
     format!("| {} |\n", cells.join(" | "))
 }
 
-/// Fields and their values, those of objects one by one.
-fn settings(fields: &Value) -> String {
-    let Value::Object(object) = fields else { return fields.to_string().replace('"', "") };
+/// Fields and their values, as `--set` takes them.
+fn settings(fields: &Overlay, path: &str) -> String {
     let field = |(name, value): (&String, &Value)| match value {
-        Value::Object(_) => settings(value),
-        value => format!("{} {}", name.replace('_', " "), settings(value)),
+        Value::Object(fields) => settings(fields, &format!("{path}{name}.")),
+        Value::String(text) => format!("{path}{name}={text}"),
+        value => format!("{path}{name}={value}"),
     };
-    object.iter().map(field).collect::<Vec<_>>().join(", ")
+    fields.iter().map(field).collect::<Vec<_>>().join(", ")
 }
 
 /// What was found, in words.
@@ -123,7 +123,7 @@ fn short(number: f64) -> String {
         let text = format!("{number:.3}");
         return text.trim_end_matches('0').trim_end_matches('.').to_owned();
     }
-    format!("{number:.1e}")
+    format!("{number:.1e}").replace(".0e", "e")
 }
 
 fn thousands(number: u64) -> String {
@@ -167,10 +167,10 @@ fn raw(said: &Said) -> String {
     }
 }
 
-/// Least share that the drawing tells from none: a little less than rounding.
-const LEAST: f64 = 1e-13;
-const WIDTH: f64 = 900.0;
-const LEFT: f64 = 330.0;
+/// Where the drawing has none, and all that is less.
+const LEAST: f64 = 1e-14;
+const WIDTH: f64 = 980.0;
+const LEFT: f64 = 410.0;
 const STEP: f64 = 18.0;
 
 /// The drawing: for each finding that is a share of what there is, how wrong a naive method is and how

@@ -111,7 +111,7 @@ pub struct Finding {
     pub bound: Said,
     /// Ours.
     pub ours: Said,
-    /// The naive method's.
+    /// The naive method's; of this program under naive settings, only what is not right.
     pub naive: Option<Said>,
     /// Whether ours is right.
     pub holds: bool,
@@ -122,7 +122,7 @@ pub fn findings(bench: &Bench, naive: Option<&Bench>) -> Vec<Finding> {
     let mut found = measures(bench);
     if let Some(naive) = naive {
         for (finding, naive) in found.iter_mut().zip(measures(naive)) {
-            finding.naive = Some(naive.ours);
+            finding.naive = (!naive.holds).then_some(naive.ours);
         }
     }
     if let Some(twin) = bench.case.naive {

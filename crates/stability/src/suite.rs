@@ -39,6 +39,24 @@ pub fn cases(folder: &Path) -> Result<Vec<PathBuf>, Fault> {
     if paths.is_empty() { Err(fault("no case; expected JSON files".to_owned())) } else { Ok(paths) }
 }
 
+/// Whether a file is a case rather than anything else.
+pub fn is_case(path: &Path) -> bool {
+    Document::read(path).is_ok_and(|document| document.value.get("right").is_some())
+}
+
+/// Validates a case with its experiment, and says what it is.
+///
+/// # Errors
+/// The first fault met, unless it is right to refuse the experiment.
+pub fn check(path: &Path) -> Result<String, Fault> {
+    let (case, document) = Case::read(path)?;
+    match Bench::new(&case, &document, path, &Overlay::new()) {
+        Ok(bench) => Ok(format!("a stability case, {} runs", bench.trials.len())),
+        Err(_) if case.right.refused.is_some() => Ok("a stability case, to be refused".to_owned()),
+        Err(fault) => Err(fault),
+    }
+}
+
 /// Tries a case.
 ///
 /// # Errors

@@ -1,28 +1,92 @@
-//! Every case is right, and its naive method is not.
+//! Every case is right and its naive method is not, and the page that tells so is the committed one.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use stability::{Said, Verdict, cases, csv, page, svg, try_case};
+use stability::{Finding, Said, cases, csv, page, svg, try_case};
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-fn verdicts() -> Vec<Verdict> {
-    let paths = cases(&root().join("experiments/stability")).unwrap();
-    paths.iter().map(|path| try_case(path).unwrap()).collect()
+/// Whether a naive method is as good as is right.
+fn naive_holds(finding: &Finding) -> bool {
+    match (&finding.bound, finding.naive.as_ref().unwrap()) {
+        (Said::Count(most), Said::Count(naive)) => naive.wrong <= most.wrong,
+        (Said::Number(most), Said::Number(naive)) => naive <= most,
+        (right, naive) => right == naive,
+    }
 }
 
 #[test]
-fn every_case_is_right() {
-    let verdicts = verdicts();
+fn every_case_is_right_and_its_naive_method_is_not() {
+    let paths = cases(&root().join("experiments/stability")).unwrap();
+    let verdicts: Vec<_> = paths.iter().map(|path| try_case(path).unwrap()).collect();
     for verdict in &verdicts {
-        println!("{} {:?}", verdict.name, verdict.findings);
+        assert!(verdict.holds(), "{}: {:#?}", verdict.name, verdict.findings);
+        let naive = || verdict.findings.iter().filter(|finding| finding.naive.is_some());
+        let expected = verdict.case.naive.is_some() || !verdict.case.naive_settings.is_empty();
+        assert_eq!(naive().count() > 0, expected, "{}: what is naive is right", verdict.name);
+        assert!(!naive().any(naive_holds), "{}: {:#?}", verdict.name, verdict.findings);
     }
-    let wrong: Vec<_> =
-        verdicts.iter().filter(|v| !v.holds()).map(|v| (&v.name, &v.findings)).collect();
-    assert!(wrong.is_empty(), "{wrong:#?}");
+    for (name, text) in [
+        ("README.md", page(&verdicts)),
+        ("cases.csv", csv(&verdicts).unwrap()),
+        ("stability.svg", svg(&verdicts)),
+    ] {
+        let committed = fs::read_to_string(root().join("results/stability").join(name)).unwrap();
+        assert!(committed == text, "{name} is out of date: run `virtwall stability` again");
+    }
+}
+
+/// Ten million rays from rooms turned by any angles and moved a thousand kilometres.
+#[test]
+fn leaks_are_looked_for_with_ten_million_rays() {
+    let table = fs::read_to_string(root().join("results/stability/cases.csv")).unwrap();
+    let line = table.lines().find(|line| line.starts_with("shared-edges,leaks,")).unwrap();
+    let ours = line.split(',').nth(3).unwrap();
+    let (wrong, of) = ours.split_once(" of ").unwrap();
+    assert!(wrong == "0" && of.parse::<u64>().unwrap() >= 10_000_000, "{line}");
+}
+
+#[test]
+fn bad_cases_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = folder.path().join("case.json");
+    let good = r#"{"title": "t", "failure": "f", "remedy": "r", "listed": "places",
+        "experiment": {"scene": "no.obj", "processors": 1}, "right": {"leaks": 0}}"#;
+    for (from, to, expected) in [
+        ("", "", "case.json: scene: \"no.obj\": no such file"),
+        (
+            "\"leaks\"",
+            "\"leeks\"",
+            "case.json:2: right.leeks: unknown field \"leeks\", did you mean",
+        ),
+        ("\"places\"", "\"somewhere\"", "case.json:1: listed"),
+        (
+            "\"right\"",
+            "\"naive\": \"closed_faces\", \"right\"",
+            "it shows \"owners\"; expected that",
+        ),
+        ("{\"scene\": \"no.obj\", \"processors\": 1}", "3", "expected an object"),
+        ("{\"leaks\": 0}", "3", "case.json:2: right"),
+    ] {
+        fs::write(&case, good.replacen(from, to, 1)).unwrap();
+        let fault = try_case(&case).err().unwrap().to_string();
+        assert!(fault.contains(expected), "{fault}");
+    }
+    assert!(cases(&folder.path().join("none")).is_err());
+}
+
+#[test]
+fn the_schema_is_shipped() {
+    let path = root().join("experiments/schemas/stability.json");
+    let text = serde_json::to_string_pretty(&stability::case_schema()).unwrap() + "\n";
+    if std::env::var_os("UPDATE_SCHEMAS").is_some() {
+        fs::write(&path, &text).unwrap();
+    }
+    let shipped = fs::read_to_string(&path).unwrap_or_default();
+    assert!(shipped == text, "out of date: run the test again with UPDATE_SCHEMAS=1");
 }

@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 
 use radiosity::{Rgb, Shot, Side};
 
-use crate::message::{Parcel, WallPatch};
+use crate::message::Parcel;
 use crate::problem::Problem;
+use crate::wall_patch::WallPatch;
 
 /// Power gathered by the wall patches of one environment on its way out.
 #[derive(Default)]

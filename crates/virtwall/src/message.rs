@@ -1,8 +1,9 @@
 //! The wire format of everything that processes send.
 
-use radiosity::glam::DVec3;
 use radiosity::{DepthBits, Mask, Side, Source};
-use thiserror::Error;
+
+use crate::reader::{DecodeError, Reader};
+use crate::wall_patch::WallPatch;
 
 /// A message between processes.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,26 +46,6 @@ impl Parcel {
     /// environment never comes back: it is a box, and rays are straight.
     pub fn is_local(&self) -> bool {
         self.environment == self.source.environment
-    }
-}
-
-/// A wall patch on its way to the environment behind it, which knows where it lies.
-#[derive(Clone, Debug, PartialEq)]
-pub struct WallPatch {
-    /// Where it goes.
-    pub environment: u32,
-    /// The side of that environment by which light enters, by [`Side::index`](radiosity::Side::index).
-    pub side: u8,
-    /// The wall patch of that side.
-    pub patch: u32,
-    /// Power in each bin of directions, W.
-    pub power: Vec<[f32; 3]>,
-}
-
-impl WallPatch {
-    /// Words of 8 bytes that its bins take.
-    pub(crate) fn words(&self) -> u64 {
-        (self.power.len() as u64 * 12).div_ceil(8)
     }
 }
 
@@ -146,11 +127,6 @@ impl MessageKind {
     }
 }
 
-/// Bytes that are not a message.
-#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
-#[error("not a message: {0}")]
-pub struct DecodeError(pub(crate) &'static str);
-
 impl Message {
     /// The bytes that travel, little-endian.
     pub fn encode(&self) -> Vec<u8> {
@@ -186,7 +162,7 @@ impl Message {
             Message::Done => to.push(6),
             Message::WallPatch(wall_patch) => {
                 to.push(7);
-                encode_wall_patch(wall_patch, &mut to);
+                wall_patch.encode(&mut to);
             }
         }
         to
@@ -218,7 +194,7 @@ impl Message {
             4 => Message::StopSelecting,
             5 => Message::Token(from.byte()? != 0),
             6 => Message::Done,
-            7 => Message::WallPatch(Box::new(decode_wall_patch(&mut from)?)),
+            7 => Message::WallPatch(Box::new(WallPatch::decode(&mut from)?)),
             _ => return Err(DecodeError("unknown kind")),
         };
         if from.0.is_empty() { Ok(message) } else { Err(DecodeError("bytes left over")) }
@@ -304,74 +280,10 @@ fn decode_mask(from: &[u8], pixels: u32, layout: u32) -> Result<Mask, DecodeErro
     mask.ok_or(DecodeError("mask and pixels differ"))
 }
 
-/// A bit a bin tells whether it holds power; only the power of those that do follows.
-fn encode_wall_patch(wall_patch: &WallPatch, to: &mut Vec<u8>) {
-    let WallPatch { environment, side, patch, power } = wall_patch;
-    to.extend(environment.to_le_bytes());
-    to.push(*side);
-    to.extend(patch.to_le_bytes());
-    to.extend((power.len() as u16).to_le_bytes());
-    for bins in power.chunks(8) {
-        let held = bins.iter().zip(0..).map(|(&power, i)| u8::from(power != [0.0; 3]) << i);
-        to.push(held.fold(0, |all, bit| all | bit));
-    }
-    let held = power.iter().filter(|&&power| power != [0.0; 3]);
-    held.flatten().for_each(|x| to.extend(x.to_le_bytes()));
-}
-
-fn decode_wall_patch(from: &mut Reader) -> Result<WallPatch, DecodeError> {
-    let (environment, side, patch) = (from.u32()?, from.byte()?, from.u32()?);
-    let bins = usize::from(from.u16()?);
-    let held = (0..bins.div_ceil(8)).map(|_| from.byte()).collect::<Result<Vec<u8>, _>>()?;
-    let power = (0..bins).map(|bin| match held[bin / 8] >> (bin % 8) & 1 {
-        0 => Ok([0.0; 3]),
-        _ => Ok([from.f32()?, from.f32()?, from.f32()?]),
-    });
-    let power = power.collect::<Result<_, _>>()?;
-    Ok(WallPatch { environment, side, patch, power })
-}
-
-/// Bytes not read yet.
-pub(crate) struct Reader<'a>(pub(crate) &'a [u8]);
-
-impl Reader<'_> {
-    fn take<const N: usize>(&mut self) -> Result<[u8; N], DecodeError> {
-        let (taken, rest) = self.0.split_first_chunk().ok_or(DecodeError("too short"))?;
-        self.0 = rest;
-        Ok(*taken)
-    }
-
-    pub(crate) fn byte(&mut self) -> Result<u8, DecodeError> {
-        self.take().map(|[byte]| byte)
-    }
-
-    pub(crate) fn u16(&mut self) -> Result<u16, DecodeError> {
-        self.take().map(u16::from_le_bytes)
-    }
-
-    pub(crate) fn u32(&mut self) -> Result<u32, DecodeError> {
-        self.take().map(u32::from_le_bytes)
-    }
-
-    pub(crate) fn u64(&mut self) -> Result<u64, DecodeError> {
-        self.take().map(u64::from_le_bytes)
-    }
-
-    fn f32(&mut self) -> Result<f32, DecodeError> {
-        self.take().map(f32::from_le_bytes)
-    }
-
-    pub(crate) fn f64(&mut self) -> Result<f64, DecodeError> {
-        self.take().map(f64::from_le_bytes)
-    }
-
-    fn vector(&mut self) -> Result<DVec3, DecodeError> {
-        Ok(DVec3::new(self.f64()?, self.f64()?, self.f64()?))
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use radiosity::glam::DVec3;
+
     use super::*;
 
     fn parcel(pixels: u32) -> Message {
@@ -416,15 +328,6 @@ mod tests {
     fn wall_patch(bins: usize) -> Message {
         let power = (0..bins).map(|bin| [(bin % 3) as f32; 3]).collect();
         Message::WallPatch(Box::new(WallPatch { environment: 8, side: 5, patch: 77, power }))
-    }
-
-    /// A wall patch takes 12 bytes for each bin that holds power, a bit for each that could, and 12.
-    #[test]
-    fn a_wall_patch_takes_what_its_bins_take() {
-        for (bins, held) in [(1, 0), (4, 2), (16, 10), (64, 42), (4_096, 2_730)] {
-            let bytes = wall_patch(bins).encode().len();
-            assert_eq!(bytes, 12 + bins.div_ceil(8) + held * 12, "{bins}");
-        }
     }
 
     #[test]

@@ -7,7 +7,8 @@ use radiosity::{
 use thiserror::Error;
 
 use crate::decomposition::Decomposition;
-use crate::message::{Parcel, WallPatch};
+use crate::message::Parcel;
+use crate::wall_patch::WallPatch;
 
 /// How a scene is meshed and cut.
 #[derive(Clone, Debug)]

@@ -7,10 +7,11 @@ use std::sync::Arc;
 use radiosity::{Greatest, Light, LocalEnvironment, Operation, Part, Rgb, Shot, Source, Work};
 
 use crate::gathered::Gathered;
-use crate::message::{Parcel, PatchUpdate, WallPatch};
+use crate::message::{Parcel, PatchUpdate};
 use crate::problem::Problem;
 use crate::rules::{Rules, Selection};
 use crate::shooting::Shooting;
+use crate::wall_patch::WallPatch;
 
 /// What one processor owns of the scene.
 pub struct Region {

@@ -3,7 +3,7 @@
 
 use radiosity::{DepthBits, LocalEnvironment, Mask, Operation, Outgoing, Shot, Side, Work};
 
-use crate::message::{DecodeError, Reader};
+use crate::reader::{DecodeError, Reader};
 
 /// The bytes of a shot, little-endian.
 pub(crate) fn encode(shot: &Shot) -> Vec<u8> {

@@ -162,8 +162,8 @@ fn what_is_no_shot_is_cast_anew() {
         |i, code| code.truncate(i % code.len()),
         |_, code| code.push(0),
         // Many hits; a patch that does not exist; a neighbour that does not.
-        |_, code| code[96..100].fill(0xff),
-        |_, code| code[100..104].fill(0xff),
+        |_, code| code[104..108].fill(0xff),
+        |_, code| code[108..112].fill(0xff),
         |_, code| *code.last_mut().unwrap() ^= 1,
     ];
     for (i, spoil) in spoil.into_iter().enumerate() {

@@ -14,22 +14,25 @@ struct Face {
     normal: DVec3,
 }
 
-/// The faces of the case's OBJ file.
+/// The faces of the case's OBJ file, which is to be as simple as OBJ files can be.
 fn read(bench: &Bench) -> Result<Vec<Face>, String> {
-    let name = bench.scene_file.with_extension("obj");
-    let text = fs::read_to_string(&name).map_err(|error| format!("{}: {error}", name.display()))?;
+    let name = bench.scene_file.display();
+    let text = fs::read_to_string(&bench.scene_file).map_err(|error| format!("{name}: {error}"))?;
     let mut points = Vec::new();
     let mut faces = Vec::new();
     for line in text.lines() {
-        let mut words = line.split_whitespace();
-        match words.next() {
-            Some("v") => {
-                let numbers: Vec<f64> = words.filter_map(|word| word.parse().ok()).collect();
-                points.push(DVec3::new(numbers[0], numbers[1], numbers[2]));
+        let too_hard = || format!("{name}: \"{line}\"; expected plain numbers");
+        match line.split_once(' ') {
+            Some(("v", numbers)) => {
+                let numbers: Vec<f64> = numbers.split(' ').filter_map(|n| n.parse().ok()).collect();
+                points.push(DVec3::from_slice(numbers.get(..3).ok_or_else(too_hard)?));
             }
-            Some("f") => {
-                let numbers = words.filter_map(|word| word.parse::<usize>().ok());
-                let corners: Vec<DVec3> = numbers.map(|number| points[number - 1]).collect();
+            Some(("f", numbers)) => {
+                let point =
+                    |number: &str| points.get(number.parse::<usize>().ok()?.wrapping_sub(1));
+                let corners: Option<Vec<DVec3>> =
+                    numbers.split(' ').map(|n| point(n).copied()).collect();
+                let corners = corners.filter(|corners| corners.len() > 2).ok_or_else(too_hard)?;
                 let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
                 faces.push(Face { normal: normal / normal.length(), corners });
             }
