@@ -95,3 +95,27 @@ impl Progress {
         self.bar.set_message(message);
     }
 }
+
+/// Follows pilot runs, which find settings: nobody knows how many there will be.
+pub struct Pilots(ProgressBar);
+
+impl Pilots {
+    /// To be shown unless `quiet`; indicatif hides it where standard error is no terminal.
+    pub fn new(quiet: bool) -> Pilots {
+        let target =
+            if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+        Pilots(ProgressBar::with_draw_target(None, target))
+    }
+
+    /// A pilot run has ended.
+    pub fn note(&self, scene: &str, target: f64, runs: usize) {
+        let percent = 100.0 * target;
+        self.0.set_message(format!("settings for {scene} to {percent} %: {runs} pilot runs"));
+        self.0.tick();
+    }
+
+    /// Takes it away.
+    pub fn end(&self) {
+        self.0.finish_and_clear();
+    }
+}

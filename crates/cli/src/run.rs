@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
-use lab::{Endings, HostClock, On, Options, Plan, Results, ShotFiles, Traces, Viewing};
+use lab::{Endings, HostClock, On, Options, Plan, Preparing, Results, ShotFiles, Traces, Viewing};
 use multicomputer::quantity::{Dimension, QuantityError, parse};
 use reference::parallel;
 use traces::{Format, Sample};
 
 use crate::exit::Exit;
-use crate::progress::Progress;
+use crate::progress::{Pilots, Progress};
 
 /// What to run, and how.
 #[derive(Args)]
@@ -108,7 +108,12 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let network = arguments.network.iter().map(|rung| format!("network={rung}"));
     let set: Vec<String> = arguments.set.iter().cloned().chain(network).collect();
     let threads = arguments.threads.map_or_else(parallel::host_threads, usize::from);
-    let plan = Arc::new(Plan::read(&arguments.file, &set, threads)?);
+    let memory = arguments.memory.unwrap_or_else(lab::half_of_free_memory);
+    let pilots = Pilots::new(arguments.quiet);
+    let on_pilot = |scene: &str, target, runs| pilots.note(scene, target, runs);
+    let preparing = Preparing { threads, memory, on_pilot: &on_pilot };
+    let plan = Arc::new(Plan::read(&arguments.file, &set, &preparing)?);
+    pilots.end();
     arguments.viewer.check(&plan).map_err(Exit::bad_input)?;
     let default = || PathBuf::from("results").join(&plan.name);
     let out = arguments.out.clone().unwrap_or_else(default);
@@ -122,7 +127,6 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         OnArgument::Simulation => On::Simulation,
         OnArgument::Threads => On::Threads,
     };
-    let memory = arguments.memory.unwrap_or_else(lab::half_of_free_memory);
     let viewing = arguments.viewer.clone();
     let options =
         Options { threads, fresh: arguments.fresh, on, memory, shot_files, traces, viewing };
@@ -138,7 +142,9 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     lab::write_host_times(&out, &endings, clock.seconds(), threads).map_err(Exit::failure)?;
     results.write(&out).map_err(Exit::failure)?;
     let networks = lab::networks_text(&plan, &endings);
-    let mut output = format!("{}\n{}\n{networks}{}", plan.title, results.text(), shots(&endings));
+    let mut output = format!("{}\n{}\n{networks}", plan.title, results.text());
+    output.extend(plan.settings_found().iter().map(|found| format!("{found}\n")));
+    output += &shots(&endings);
     if let Some(trouble) = options.shot_files.and_then(|files| files.trouble()) {
         output += &format!("Shots could not be kept in {trouble}.\n");
     }

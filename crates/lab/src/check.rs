@@ -11,6 +11,7 @@ use crate::file;
 use crate::find::Found;
 use crate::open_machine::OpenMachine;
 use crate::plan::Plan;
+use crate::planner::Preparing;
 use crate::scene::Scene;
 
 /// Validates an experiment, a machine, a trace, a scene description or an OBJ file, with all that
@@ -31,7 +32,7 @@ pub fn check(path: &Path) -> Result<String, Fault> {
     let document = Document::parse(path.display().to_string(), text)?;
     let has = |key: &str| document.value.get(key).is_some();
     if has("scene") || has("plots") {
-        let plan = Plan::read(path, &[], 1)?;
+        let plan = Plan::read(path, &[], &Preparing::default())?;
         let (runs, problems) = (plan.runs.len(), plan.problems.len());
         return Ok(format!("an experiment, {runs} runs of {problems} meshed scenes"));
     }

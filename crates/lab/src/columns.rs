@@ -10,6 +10,7 @@ use crate::figures::Figures;
 use crate::message_layer;
 use crate::start_up;
 use crate::sweep::Axis;
+use crate::tuned;
 
 /// The first columns, always these, in this order.
 const FIRST: [&str; 14] = [
@@ -82,6 +83,8 @@ pub struct Also {
     pub memory: bool,
     /// Those of the message layer.
     pub message_layer: bool,
+    /// Those of settings that were found.
+    pub accuracy: bool,
     /// That of participating media.
     pub media: bool,
     /// Those of errors.
@@ -105,7 +108,8 @@ impl Also {
         let start_up = start_up::COLUMNS.into_iter().filter(move |_| self.start_up);
         let machine = network.chain(memory).chain(layer).chain(display).chain(start_up);
         let causes = causes::COLUMNS.into_iter().filter(move |_| self.causes);
-        machine.chain(media).chain(errors).chain(causes)
+        let accuracy = tuned::COLUMNS.into_iter().filter(move |_| self.accuracy);
+        machine.chain(media).chain(errors).chain(causes).chain(accuracy)
     }
 }
 

@@ -7,6 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
+use crate::accuracy::AccuracyFields;
 use crate::display::DisplayFields;
 use crate::interfaces::{Interfaces, VirtualWalls};
 use crate::knobs::SplitFields;
@@ -126,6 +127,11 @@ pub struct Experiment {
     /// error_directions, error_sampling and error_mesh. It needs a "reference".
     #[serde(default, skip_serializing_if = "is_false")]
     pub error_causes: bool,
+    /// The error that results are to stay below: the knobs that trade accuracy for time are found by
+    /// pilot runs, for each scene the cheapest that will do, and stand in the columns from target_l2
+    /// on.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<AccuracyFields>,
     /// Which source a node shoots next. Choice C4: §3.2 says the most unshot energy, §4.2.2 the
     /// greatest delta-radiosity.
     #[serde(default)]

@@ -4,6 +4,7 @@
 //! out, run by run, each saved as it ends ([`carry_out`]); its results are written whole
 //! ([`Results`]). Knows nothing of how a kernel or a link works: all of that is behind `engine`.
 
+mod accuracy;
 mod answer;
 mod causes;
 mod chart;
@@ -40,6 +41,7 @@ mod node_memory;
 mod open_machine;
 mod open_scene;
 mod pareto;
+mod pilot;
 mod place;
 mod plan;
 mod planner;
@@ -67,6 +69,8 @@ mod sweep;
 mod table;
 mod traces;
 mod trials;
+mod tuned;
+mod tuner;
 mod viewing;
 
 pub use check::check;
@@ -82,6 +86,7 @@ pub use open_machine::OpenMachine;
 pub use open_scene::OpenScene;
 pub use place::Place;
 pub use plan::Plan;
+pub use planner::Preparing;
 pub use ray_bench::RayBench;
 pub use results::{Results, write_host_times};
 pub use runner::{Endings, Event, Options, Watch, carry_out};

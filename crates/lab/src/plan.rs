@@ -18,6 +18,7 @@ use crate::network;
 use crate::place::Place;
 use crate::settings::Settings;
 use crate::sweep::Axis;
+use crate::tuned::Tuned;
 
 /// All that an experiment will do.
 pub struct Plan {
@@ -48,6 +49,14 @@ pub struct Plan {
 }
 
 impl Plan {
+    /// The settings that were found, a sentence each.
+    pub fn settings_found(&self) -> Vec<String> {
+        let found = self.runs.iter().filter_map(|run| Some(run.tuned?.sentence(&run.point.scene)));
+        let mut sentences: Vec<String> = found.collect();
+        sentences.dedup();
+        sentences
+    }
+
     /// What its results tell of besides what all do.
     pub fn also(&self) -> Also {
         let machine = |run: &Run| &self.machines[run.machine].machine;
@@ -56,6 +65,7 @@ impl Plan {
             memory: self.runs.iter().any(|run| machine(run).node_memory.is_some()),
             media: self.problems.iter().any(|p| !p.problem.space.scene.media.is_empty()),
             message_layer: self.runs.iter().any(|run| message_layer::tells(machine(run))),
+            accuracy: self.runs.iter().any(|run| run.tuned.is_some()),
             causes: self.runs.iter().any(|run| run.point.error_causes),
             errors: self.runs.iter().any(|run| run.point.reference.is_some()),
             display: self.runs.iter().any(|run| machine(run).display.is_some()),
@@ -85,6 +95,8 @@ pub struct Run {
     pub machine: usize,
     /// Index into [`Plan::references`]; none where a run has no reference, or a dense one.
     pub stored: Option<usize>,
+    /// How its knobs were found, where they were.
+    pub tuned: Option<Tuned>,
 }
 
 /// A scene, meshed and cut.

@@ -8,6 +8,7 @@ use multicomputer::Machine;
 use reference::parallel;
 use serde_json::Value;
 
+use crate::accuracy::REPLACED;
 use crate::answer::{self, Stored};
 use crate::columns;
 use crate::comparison::Comparison;
@@ -23,23 +24,42 @@ use crate::knobs;
 use crate::machine_file::MachineFile;
 use crate::measure::Measure;
 use crate::network;
+use crate::pilot::Pilots;
 use crate::place::Place;
 use crate::plan::{Equipment, Plan, Prepared, Run};
 use crate::scene::Scene;
 use crate::settings::Settings;
 use crate::sweep::{Point, Sweep};
+use crate::tuned::Tuned;
+use crate::tuner::tune;
 
 /// More local environments can only be a slip.
 const MOST_ENVIRONMENTS: u32 = 65_536;
 
+/// How a plan is made ready. None of it changes the plan.
+pub struct Preparing<'a> {
+    /// Threads that make scenes ready and find knobs side by side, at least 1.
+    pub threads: usize,
+    /// Host memory for shots of pilot runs, bytes.
+    pub memory: usize,
+    /// Hears of every pilot run: scene, accuracy asked for, pilot runs made for both.
+    pub on_pilot: &'a (dyn Fn(&str, f64, usize) + Sync),
+}
+
+impl Default for Preparing<'_> {
+    fn default() -> Self {
+        Preparing { threads: 1, memory: 1 << 28, on_pilot: &|_, _, _| () }
+    }
+}
+
 impl Plan {
     /// Reads an experiment file, lays `--set path=value` arguments over it, and validates all of
-    /// it, the scenes and machines that it names included; `threads` make scenes ready side by side.
+    /// it, the scenes and machines that it names included, and finds the knobs that it leaves open.
     ///
     /// # Errors
     /// The first fault met. Nothing was written.
-    pub fn read(path: &Path, arguments: &[String], threads: usize) -> Result<Plan, Fault> {
-        Plan::of(path, Document::read(path)?, arguments, threads)
+    pub fn read(path: &Path, arguments: &[String], preparing: &Preparing) -> Result<Plan, Fault> {
+        Plan::of(path, Document::read(path)?, arguments, preparing)
     }
 
     /// Reads an experiment from a document, as if it were the file at `path`.
@@ -50,7 +70,7 @@ impl Plan {
         path: &Path,
         mut document: Document,
         arguments: &[String],
-        threads: usize,
+        preparing: &Preparing,
     ) -> Result<Plan, Fault> {
         for argument in arguments {
             document.set(argument)?;
@@ -61,7 +81,7 @@ impl Plan {
             folder: path.parent().unwrap_or(Path::new("")),
             sweep: &Sweep::of(&document)?,
             document: &document,
-            threads,
+            preparing,
             scenes: Vec::new(),
             machines: Vec::new(),
             references: BTreeMap::new(),
@@ -77,7 +97,7 @@ struct Planner<'a> {
     folder: &'a Path,
     document: &'a Document,
     sweep: &'a Sweep,
-    threads: usize,
+    preparing: &'a Preparing<'a>,
     scenes: Vec<Found>,
     machines: Vec<Equipment>,
     /// Which of those stored, by file and scene.
@@ -93,6 +113,8 @@ struct Draft<'a> {
     scene: usize,
     /// Index into [`Planner::machines`].
     machine: usize,
+    /// How its knobs were found, where the experiment asks for an accuracy.
+    tuned: Option<Tuned>,
 }
 
 /// A scene that was read, and the CPU seconds that it took.
@@ -103,13 +125,14 @@ impl Planner<'_> {
     fn plan(mut self) -> Result<Plan, Fault> {
         let name = self.name()?;
         let drafts = self.sweep.points.iter().map(|point| self.draft(point));
-        let drafts = drafts.collect::<Result<Vec<Draft>, Fault>>()?;
+        let mut drafts = drafts.collect::<Result<Vec<Draft>, Fault>>()?;
         let scenes = self.load()?;
+        self.tune(&mut drafts, &scenes)?;
         let (problems, problem_of) = self.problems(&drafts, &scenes)?;
         let runs = drafts.into_iter().zip(problem_of).map(|(draft, problem)| {
             let stored = self.reference(&draft, &scenes[draft.scene].0, &problems[problem])?;
-            let Draft { point, typed, machine, .. } = draft;
-            Ok(Run { index: point.index.clone(), point: typed, problem, machine, stored })
+            let Draft { point, typed, machine, tuned, .. } = draft;
+            Ok(Run { index: point.index.clone(), point: typed, problem, machine, stored, tuned })
         });
         let runs = runs.collect::<Result<Vec<Run>, Fault>>()?;
         let first = &runs[0].point;
@@ -189,7 +212,8 @@ impl Planner<'_> {
             .map_err(|error| self.fault(point, "network", error.to_string()))?;
         knobs::check(&typed).map_err(|(field, message)| self.fault(point, field, message))?;
         let scene = self.scene(point, &typed)?;
-        Ok(Draft { point, typed, scene, machine })
+        self.check_accuracy(point, &typed)?;
+        Ok(Draft { point, typed, scene, machine, tuned: None })
     }
 
     /// The stored reference of a draft, read once; none if it has none, or a dense one.
@@ -260,13 +284,79 @@ impl Planner<'_> {
         Ok(self.scenes.len() - 1)
     }
 
+    /// Refuses knobs beside an accuracy, which finds them.
+    fn check_accuracy(&self, point: &Point, typed: &Experiment) -> Result<(), Fault> {
+        let Some(accuracy) = typed.accuracy else { return Ok(()) };
+        accuracy.check().map_err(|(field, message)| self.fault(point, field, message))?;
+        let set = |field: &&&str| {
+            let pointer = format!("/{}", field.replace('.', "/"));
+            point.value.pointer(&pointer).is_some()
+        };
+        match REPLACED.iter().find(set) {
+            None => Ok(()),
+            Some(field) => {
+                let message = "stands beside \"accuracy\", which finds it; expected one of the two";
+                Err(self.fault(point, field, message.to_owned()))
+            }
+        }
+    }
+
+    /// Finds the knobs of the points that ask for an accuracy; those that differ in their processors
+    /// alone share them.
+    fn tune(&self, drafts: &mut [Draft], scenes: &[Loaded]) -> Result<(), Fault> {
+        let mut asking: Vec<(Experiment, usize)> = Vec::new();
+        let mut asker = Vec::new();
+        for (number, draft) in drafts.iter().enumerate().filter(|(_, d)| d.typed.accuracy.is_some())
+        {
+            let alike = Experiment { processors: 1, ..draft.typed.clone() };
+            let text = |experiment: &Experiment| serde_json::to_string(experiment).ok();
+            let known = asking.iter().position(|(other, _)| text(other) == text(&alike));
+            asker.push((number, known.unwrap_or(asking.len())));
+            if known.is_none() {
+                asking.push((alike, number));
+            }
+        }
+        let tune = |asked: usize| {
+            let (experiment, number) = &asking[asked];
+            self.tuned(experiment, &drafts[*number], &scenes[drafts[*number].scene].0)
+        };
+        let found = parallel::map(asking.len(), self.preparing.threads, tune, || ());
+        let found = found.into_iter().collect::<Result<Vec<_>, Fault>>()?;
+        for (number, asked) in asker {
+            let (point, tuned) = &found[asked];
+            let draft = &mut drafts[number];
+            draft.typed = Experiment { processors: draft.typed.processors, ..point.clone() };
+            draft.tuned = Some(*tuned);
+        }
+        Ok(())
+    }
+
+    fn tuned(
+        &self,
+        experiment: &Experiment,
+        draft: &Draft,
+        scene: &Scene,
+    ) -> Result<(Experiment, Tuned), Fault> {
+        let refuse = |(field, message)| self.fault(draft.point, field, message);
+        let settings = Settings::of(experiment, scene).map_err(refuse)?;
+        let machine = &self.machines[draft.machine].machine;
+        let target = experiment.accuracy.map_or(1.0, |accuracy| accuracy.relative_l2);
+        let watch = |runs| (self.preparing.on_pilot)(&experiment.scene, target, runs);
+        let memory = self.preparing.memory / self.preparing.threads;
+        let pilots = Pilots::new(experiment, &settings, &scene.geometry, machine, memory, &watch);
+        let pilots = pilots.map_err(refuse)?;
+        let tuned =
+            tune(&pilots, target).map_err(|message| refuse(("accuracy.relative_l2", message)))?;
+        Ok((pilots.point(&tuned.knobs), tuned))
+    }
+
     /// Reads all scenes, each once.
     fn load(&self) -> Result<Vec<Loaded>, Fault> {
         let load = |scene: usize| {
             let clock = HostClock::start();
             Ok((Scene::load(&self.scenes[scene])?, clock.cpu_seconds()))
         };
-        parallel::map(self.scenes.len(), self.threads, load, || ()).into_iter().collect()
+        parallel::map(self.scenes.len(), self.preparing.threads, load, || ()).into_iter().collect()
     }
 
     /// The scenes, meshed and cut as the points say, each such problem once, and which is whose.
@@ -296,7 +386,7 @@ impl Planner<'_> {
             let (settings, digests) = (settings.clone(), scene.digests.clone());
             Ok(Prepared { settings, problem, digests, scene_bytes: scene.bytes, set_up_s })
         };
-        let problems = parallel::map(wanted.len(), self.threads, prepare, || ());
+        let problems = parallel::map(wanted.len(), self.preparing.threads, prepare, || ());
         Ok((problems.into_iter().collect::<Result<_, Fault>>()?, problem_of))
     }
 

@@ -34,6 +34,7 @@ pub fn html(
         compared.iter().map(|line| format!("<p class=\"summary\">{}</p>\n", escape(line)));
     let summary: String = summary.collect();
     let warnings = warnings(manifest, runs);
+    let found = list("Settings found", "found", &texts(&manifest["settings_found"]));
     let figures = drawings.iter().map(|svg| format!("<figure>{svg}</figure>\n"));
     let figures: String = figures.collect();
     let ratios = if compared.is_empty() { "" } else { RATIOS };
@@ -50,7 +51,7 @@ pub fn html(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width\">\n<title>{title}</title>\n\
          <style>\n{STYLE}{viewer_style}</style>\n</head>\n<body>\n\
-         <h1>{title}</h1>\n{lead}{summary}{warnings}{answers}{figures}\
+         <h1>{title}</h1>\n{lead}{summary}{warnings}{found}{answers}{figures}\
          {cheapest}<h2>Runs</h2>\n{ratios}{grouped}\
          <details><summary>All columns</summary>\n{all}</details>\n\
          <h2>Choices</h2>\n\
@@ -84,9 +85,7 @@ fn lead(manifest: &Value, runs: &Table) -> String {
 }
 
 fn warnings(manifest: &Value, runs: &Table) -> String {
-    let mut items: Vec<String> = manifest["warnings"]
-        .as_array()
-        .map_or(Vec::new(), |warnings| warnings.iter().map(columns::cell).collect());
+    let mut items = texts(&manifest["warnings"]);
     for row in &runs.rows {
         let cell = |column| runs.cell(row, column);
         let run = format!("{} on {} processors", cell("scene"), cell("processors"));
@@ -99,11 +98,19 @@ fn warnings(manifest: &Value, runs: &Table) -> String {
             _ => {}
         }
     }
+    list("Warnings", "warnings", &items)
+}
+
+fn texts(list: &Value) -> Vec<String> {
+    list.as_array().into_iter().flatten().map(columns::cell).collect()
+}
+
+fn list(title: &str, class: &str, items: &[String]) -> String {
     if items.is_empty() {
         return String::new();
     }
     let items: String = items.iter().map(|item| format!("<li>{}</li>\n", escape(item))).collect();
-    format!("<h2>Warnings</h2>\n<ul class=\"warnings\">\n{items}</ul>\n")
+    format!("<h2>{title}</h2>\n<ul class=\"{class}\">\n{items}</ul>\n")
 }
 
 /// The runs in the manner of Table 1, a body of rows for each scene.

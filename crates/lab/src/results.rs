@@ -156,7 +156,7 @@ fn manifest(plan: &Plan, table: &Table, on: On) -> io::Result<Value> {
     let files: Map<String, Value> =
         plan.files.iter().map(|file| (file.label.clone(), file.sha256.clone().into())).collect();
     let sweeps: Vec<String> = plan.axes.iter().map(|axis| axis.place.to_string()).collect();
-    Ok(json!({
+    let mut manifest = json!({
         "title": plan.title,
         "virtwall": env!("CARGO_PKG_VERSION"),
         "on": on,
@@ -168,7 +168,12 @@ fn manifest(plan: &Plan, table: &Table, on: On) -> io::Result<Value> {
         "problems": problems.collect::<Vec<Value>>(),
         "files": files,
         "warnings": plan.warnings,
-    }))
+    });
+    let found = plan.settings_found();
+    if !found.is_empty() {
+        manifest["settings_found"] = found.into();
+    }
+    Ok(manifest)
 }
 
 /// Writes how long the host took: apart from the results, which do not depend on it.

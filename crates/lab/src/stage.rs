@@ -16,6 +16,7 @@ use crate::fault::Fault;
 use crate::find::{Shelf, find};
 use crate::place::Place;
 use crate::plan::Plan;
+use crate::planner::Preparing;
 use crate::scene::Scene;
 use crate::settings::Settings;
 
@@ -65,7 +66,11 @@ impl Stage {
         if what.ends_with(".json") && path.is_file() {
             let document = Document::read(path)?;
             if document.value.get("scene").is_some() {
-                return Stage::of_plan(&Plan::read(path, which.set, 1)?, which, Vec::new());
+                return Stage::of_plan(
+                    &Plan::read(path, which.set, &Preparing::default())?,
+                    which,
+                    Vec::new(),
+                );
             }
         }
         Stage::of_scene(what)
@@ -96,7 +101,7 @@ impl Stage {
         for (field, nothing) in [("compare_with", Value::Null), ("plots", json!([]))] {
             document.value[field] = nothing;
         }
-        let plan = Plan::of(&path, document, which.set, 1)?;
+        let plan = Plan::of(&path, document, which.set, &Preparing::default())?;
         let same = |label: &str, digest: &str| files[label].as_str() == Some(digest);
         let changed = plan.files.iter().filter(|file| !same(&file.label, &file.sha256));
         let changed = changed.map(|file| file.label.clone()).collect();

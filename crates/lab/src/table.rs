@@ -108,7 +108,10 @@ impl View<'_> {
             "difference_from_finest" => self.difference().unwrap_or_default(),
             "paper_time_s" => published().time_s,
             "paper_speed_up" => published().speed_up,
-            _ => self.swept(column).unwrap_or_else(|| self.figure(column)),
+            _ => {
+                let tuned = || self.run.tuned.and_then(|tuned| tuned.cell(column));
+                self.swept(column).or_else(tuned).unwrap_or_else(|| self.figure(column))
+            }
         }
     }
 

@@ -12,6 +12,7 @@ use crate::document::Document;
 use crate::engine;
 use crate::fault::Fault;
 use crate::plan::Plan;
+use crate::planner::Preparing;
 
 /// Host memory for the shots that a run keeps, bytes.
 const MEMORY: usize = 256 << 20;
@@ -28,7 +29,10 @@ impl Trials {
     /// # Errors
     /// The first fault met.
     pub fn of(document: &Document, path: &Path) -> Result<Trials, Fault> {
-        Ok(Trials { plan: Plan::of(path, document.clone(), &[], 1)?, file: document.file.clone() })
+        Ok(Trials {
+            plan: Plan::of(path, document.clone(), &[], &Preparing::default())?,
+            file: document.file.clone(),
+        })
     }
 
     /// How many runs there are: the product of all lists.

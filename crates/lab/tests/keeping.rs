@@ -9,10 +9,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use common::{Project, SWEEP};
-use lab::{Endings, On, Options, Plan, Results, ShotFiles, Viewing, carry_out};
+use lab::{Endings, On, Options, Plan, Preparing, Results, ShotFiles, Viewing, carry_out};
 
 fn swept(project: &Project, memory: usize) -> (Results, Endings) {
-    let plan = Plan::read(&project.path("experiments/x.json"), &[], 1).unwrap();
+    let plan = Plan::read(&project.path("experiments/x.json"), &[], &Preparing::default()).unwrap();
     let shot_files = Some(ShotFiles::open(&project.path("shots")).unwrap());
     let options = Options {
         threads: 2,
@@ -90,7 +90,7 @@ fn damage_is_never_a_wrong_result() {
 fn a_folder_that_has_gone_is_told() {
     let project = Project::new(SWEEP);
     let (results, _) = swept(&project, 1 << 30);
-    let plan = Plan::read(&project.path("experiments/x.json"), &[], 1).unwrap();
+    let plan = Plan::read(&project.path("experiments/x.json"), &[], &Preparing::default()).unwrap();
     let shot_files = Some(ShotFiles::open(&project.path("gone")).unwrap());
     fs::remove_dir(project.path("gone")).unwrap();
     let (on, memory) = (On::Simulation, 1 << 30);
@@ -116,7 +116,9 @@ fn sweeps_at_a_time_do_not_harm_each_other() {
     let tables = std::thread::scope(|scope| {
         let sweeps = [(); 3].map(|()| {
             scope.spawn(|| {
-                let plan = Plan::read(&project.path("experiments/x.json"), &[], 1).unwrap();
+                let plan =
+                    Plan::read(&project.path("experiments/x.json"), &[], &Preparing::default())
+                        .unwrap();
                 let shot_files = Some(ShotFiles::open(&project.path("shots")).unwrap());
                 let (on, memory) = (On::Simulation, 1 << 20);
                 let options = Options {

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use common::{Project, SWEEP};
-use lab::{Event, On, Options, Plan, Results, Viewing, carry_out};
+use lab::{Event, On, Options, Plan, Preparing, Results, Viewing, carry_out};
 
 fn options(threads: usize) -> Options {
     Options {
@@ -25,7 +25,7 @@ fn options(threads: usize) -> Options {
 }
 
 fn plan(project: &Project) -> Plan {
-    Plan::read(&project.path("experiments/x.json"), &[], 1).unwrap()
+    Plan::read(&project.path("experiments/x.json"), &[], &Preparing::default()).unwrap()
 }
 
 /// Carries the plan out; returns the results, and how many runs were found and how many done.
