@@ -4,14 +4,8 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use lab::{HostClock, OpenScene};
-use radiosity::glam::DVec3;
-use radiosity::{
-    Hemisphere, HemisphereKind, LocalEnvironment, Mask, Operation, PatchSize, Rgb, Source, Space,
-    Work, shoot, shoot_plainly,
-};
-use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
+use lab::{HostClock, OpenScene, RayBench};
+use radiosity::{Operation, Work};
 
 use crate::exit::Exit;
 
@@ -50,54 +44,12 @@ enum Format {
 /// does are part of the time; reading the file and sorting it into its grid are not.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let open = OpenScene::load(&arguments.scene.to_string_lossy())?;
-    let space = Space::new(open.scene, open.cells);
-    let size = PatchSize { reflector: open.patch_size, emitter: open.emitter_patch_size };
-    let whole = LocalEnvironment::new(&space, space.grid.whole(), size);
-    let hemisphere = Hemisphere::new(HemisphereKind::Fibonacci, arguments.rays, true)
+    let bench = RayBench::new(open, arguments.sources, arguments.rays, arguments.seed)
         .map_err(Exit::bad_input)?;
-    let mut random = ChaCha8Rng::seed_from_u64(arguments.seed);
-    let sources: Vec<Source> =
-        (0..arguments.sources).map(|_| random_source(&space, &mut random)).collect();
-    let mask = Mask::all(hemisphere.pixels());
-    let cast = if arguments.plain { shoot_plainly } else { shoot };
     let clock = HostClock::start();
-    let work = std::thread::scope(|scope| {
-        let share = sources.len().div_ceil(arguments.threads as usize);
-        let threads: Vec<_> = sources
-            .chunks(share)
-            .map(|sources| {
-                let shots = || sources.iter().map(|s| cast(&space, &whole, &hemisphere, s, &mask));
-                scope.spawn(move || shots().fold(Work::NONE, |work, shot| work + shot.work))
-            })
-            .collect();
-        threads.into_iter().try_fold(Work::NONE, |sum, thread| Some(sum + thread.join().ok()?))
-    });
+    let work = bench.cast_on(arguments.threads as usize, arguments.plain);
     let seconds = clock.seconds();
-    let work = work.ok_or_else(|| Exit::failure("a thread failed"))?;
-    Ok(report(arguments, space.scene.polygons.len(), &work, seconds))
-}
-
-/// A random point of a random polygon, as a source.
-fn random_source(space: &Space, random: &mut ChaCha8Rng) -> Source {
-    let polygon = random.random_range(0..space.scene.polygons.len());
-    let face = &space.scene.polygons[polygon];
-    let corners: Vec<DVec3> = space.scene.corners(face).collect();
-    // A random triangle of the fan, then a random point of it.
-    let corner = random.random_range(1..corners.len() - 1);
-    let (mut a, mut b) = (random.random::<f64>(), random.random::<f64>());
-    if a + b > 1.0 {
-        (a, b) = (1.0 - a, 1.0 - b);
-    }
-    let [p, q, r] = [corners[0], corners[corner], corners[corner + 1]];
-    Source {
-        environment: 0,
-        patch: 0,
-        polygon: polygon as u32,
-        centre: p + (q - p) * a + (r - p) * b,
-        normal: face.plane.normal,
-        power: Rgb::ONE,
-        radiosity: Rgb::ONE,
-    }
+    Ok(report(arguments, bench.space.scene.polygons.len(), &work, seconds))
 }
 
 fn report(arguments: &Arguments, polygons: usize, work: &Work, seconds: f64) -> String {

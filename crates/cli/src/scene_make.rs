@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use scenemaker::SceneKind;
+use scenemaker::{MOST_TABLES, SceneKind};
 
 use crate::exit::Exit;
 
@@ -15,6 +15,9 @@ pub struct Arguments {
     /// Seed of what is drawn at random
     #[arg(long, value_name = "N", default_value_t = 1996)]
     seed: u64,
+    /// Tables in each of the rooms, of which the paper has four
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(..=i64::from(MOST_TABLES)))]
+    tables: Option<u32>,
     /// Folder for the OBJ and MTL files
     #[arg(long, value_name = "DIR", default_value = "scenes")]
     out: PathBuf,
@@ -22,10 +25,16 @@ pub struct Arguments {
 
 /// Writes the files; returns their names.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
+    let text = match (arguments.kind, arguments.tables) {
+        (kind, None) => scenemaker::make(kind, arguments.seed),
+        (SceneKind::Rooms, Some(tables)) => scenemaker::make_rooms(tables, arguments.seed),
+        (kind, Some(_)) => {
+            return Err(Exit::bad_input(format!("--tables: found {kind}; expected rooms")));
+        }
+    };
     let out = &arguments.out;
     std::fs::create_dir_all(out)
         .map_err(|error| Exit::bad_input(format!("{}: no folder: {error}", out.display())))?;
-    let text = scenemaker::make(arguments.kind, arguments.seed);
     let mut output = String::new();
     for (ending, contents) in [("obj", &text.obj), ("mtl", &text.mtl)] {
         let path = out.join(format!("{}.{ending}", arguments.kind.name()));

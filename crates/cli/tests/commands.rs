@@ -92,6 +92,8 @@ fn bad_input_exits_with_2_and_leaves_nothing() {
         &["check", "scenes/box.mtl"],
         &["scene", "show", "attic"],
         &["scene", "make", "attic"],
+        &["scene", "make", "office", "--tables", "3"],
+        &["scene", "make", "rooms", "--tables", "50"],
         &["schema", "attic"],
         &["attic"],
     ] {

@@ -98,6 +98,19 @@ fn every_choice_in_the_code_is_listed() {
     assert_eq!(marked, listed);
 }
 
+/// `cargo test` leaves no crate out but the one that compares with other programs.
+#[test]
+fn every_crate_is_built_by_default() {
+    let manifest = fs::read_to_string(crates().join("../Cargo.toml")).unwrap();
+    for entry in fs::read_dir(crates()).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        if crates().join(&name).join("Cargo.toml").exists() {
+            let listed = manifest.contains(&format!("    \"crates/{name}\",\n"));
+            assert_eq!(listed, name != "peers", "default-members and {name}");
+        }
+    }
+}
+
 /// The table in the README is the one in results/table1, and so is the summary.
 #[test]
 fn the_readme_tells_the_results() {

@@ -32,6 +32,11 @@ impl Bounds {
         Bounds { min: self.min.max(other.min), max: self.max.min(other.max) }
     }
 
+    /// The smallest box around both.
+    pub fn union(&self, other: &Bounds) -> Bounds {
+        Bounds { min: self.min.min(other.min), max: self.max.max(other.max) }
+    }
+
     /// Edge lengths.
     pub fn size(&self) -> DVec3 {
         self.max - self.min

@@ -33,16 +33,23 @@ pub struct Patch {
 /// the same depth on each side: 2^i by 2^j slots, each with its patch. None of it is left of a polygon
 /// that shows the environment only its back.
 #[derive(Default)]
-struct Piece {
+pub(crate) struct Piece {
     polygon: u32,
     /// `point · u - u0` runs from 0 to `nu` over the piece; likewise v.
-    u: DVec3,
-    u0: f64,
-    nu: u32,
-    v: DVec3,
-    v0: f64,
-    nv: u32,
-    first_slot: u32,
+    pub(crate) u: DVec3,
+    pub(crate) u0: f64,
+    pub(crate) nu: u32,
+    pub(crate) v: DVec3,
+    pub(crate) v0: f64,
+    pub(crate) nv: u32,
+    pub(crate) first_slot: u32,
+}
+
+impl Piece {
+    /// Whether its polygon shows the environment only its back.
+    pub(crate) fn is_back(&self) -> bool {
+        self.nu == 0
+    }
 }
 
 /// One part of space between virtual interfaces, with the patches in it (§3, §4.2.1).
@@ -53,9 +60,9 @@ pub struct LocalEnvironment {
     /// Its patches.
     pub patches: Vec<Patch>,
     /// By rising polygon.
-    pieces: Vec<Piece>,
+    pub(crate) pieces: Vec<Piece>,
     /// Patch of each slot of each piece; a slot outside its polygon names the nearest patch.
-    slots: Vec<u32>,
+    pub(crate) slots: Vec<u32>,
     /// Over the boxes of its pieces.
     pub(crate) tree: Tree,
     /// The area that a patch counts for when its radiosity is told: a sliver's radiosity, a few
@@ -125,10 +132,9 @@ impl LocalEnvironment {
     }
 
     /// The patch of a piece at a point where a ray hit its front.
-    #[inline]
-    pub(crate) fn patch_of(&self, piece: u32, point: DVec3) -> Option<u32> {
+    fn patch_of(&self, piece: u32, point: DVec3) -> Option<u32> {
         let piece = &self.pieces[piece as usize];
-        if piece.nu == 0 {
+        if piece.is_back() {
             return None;
         }
         let slot = |along: DVec3, start: f64, n: u32| {

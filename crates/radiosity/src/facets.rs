@@ -99,6 +99,12 @@ impl Facets {
         &self.facets[facet as usize]
     }
 
+    /// How far along its normal the plane of a facet lies from a point.
+    #[inline(always)]
+    pub(crate) fn above(&self, facet: &Facet, point: DVec3) -> f64 {
+        facet.offset - facet.normal.dot(point)
+    }
+
     /// The edges of a facet.
     pub(crate) fn edges(&self, facet: &Facet) -> &[Edge] {
         &self.edges[facet.first_edge as usize..][..facet.edges as usize]
@@ -115,7 +121,7 @@ impl Facets {
         }
         // Multiplied by the reciprocal, as the grid does: for a facet in a plane of the grid the
         // two distances are then the same number.
-        let t = (f.offset - f.normal.dot(ray.origin)) * (1.0 / slope);
+        let t = self.above(f, ray.origin) * (1.0 / slope);
         if !(t > self.tolerance && t <= limit) {
             return None;
         }

@@ -49,6 +49,17 @@ impl Block {
         (0..3).all(|a| (self.low[a]..self.high[a]).contains(&cell[a]))
     }
 
+    /// The side by which to pass on a ray that never enters the block: towards the cell of its origin.
+    /// Only a source in a side of its own environment has such rays. One that starts in no other
+    /// environment leaves the scene.
+    pub(crate) fn side_towards(&self, start: [u32; 3], up_x: bool) -> Side {
+        let beyond = |axis: usize| {
+            let upper = start[axis] >= self.high[axis];
+            (upper || start[axis] < self.low[axis]).then_some(Side { axis, upper })
+        };
+        (0..3).find_map(beyond).unwrap_or(Side { axis: 0, upper: up_x })
+    }
+
     /// Its cells, x running fastest.
     pub fn cells(self) -> impl Iterator<Item = [u32; 3]> {
         let range = move |axis: usize| self.low[axis]..self.high[axis];
@@ -68,7 +79,7 @@ pub struct Grid {
     /// Cells in a metre.
     per_metre: [f64; 3],
     /// Where the polygons of each cell start, and those of the last one end.
-    pub(crate) starts: Vec<u32>,
+    starts: Vec<u32>,
     polygons: Vec<u32>,
 }
 
@@ -132,6 +143,12 @@ impl Grid {
     pub fn polygons(&self, cell: [u32; 3]) -> &[u32] {
         let i = self.index(cell);
         &self.polygons[self.starts[i] as usize..self.starts[i + 1] as usize]
+    }
+
+    /// How many polygons a cell, given by its place, meets.
+    #[inline]
+    pub(crate) fn polygons_in(&self, place: u32) -> u64 {
+        u64::from(self.starts[place as usize + 1] - self.starts[place as usize])
     }
 
     #[inline]
@@ -253,17 +270,10 @@ impl Grid {
         }
     }
 
-    /// The side by which to pass on a ray that never enters a block: towards its origin. Only a source
-    /// in a side of its own environment has such rays. One that starts in no other environment leaves
-    /// the scene.
+    /// The side by which to pass on a ray that never enters a block.
     pub fn side_towards(&self, block: &Block, ray: &Ray) -> Side {
-        let cell = self.cell_of(ray.origin);
-        let beyond = |axis: usize| {
-            let upper = cell[axis] >= block.high[axis];
-            (upper || cell[axis] < block.low[axis]).then_some(Side { axis, upper })
-        };
-        let outwards = Side { axis: 0, upper: ray.direction.x > 0.0 };
-        (0..3).find_map(beyond).unwrap_or(outwards)
+        let start = self.cell_of(ray.origin);
+        block.side_towards(start, ray.direction.x > 0.0)
     }
 }
 

@@ -6,7 +6,7 @@ use glam::DVec3;
 use thiserror::Error;
 
 use crate::bounds::Bounds;
-use crate::bundle::{Bundles, WIDTH};
+use crate::bundle::{Bundles, LANES, WIDTH};
 
 /// How the pixels of a hemisphere are laid out.
 ///
@@ -33,6 +33,8 @@ pub struct Hemisphere {
     pub(crate) bundles: Bundles,
     /// Form factor of each pixel; they sum to 1.
     pub weights: Vec<f64>,
+    /// Where all pixels have one weight: the sum of none, one, two and so on of them, added one by one.
+    pub(crate) sums: Option<Vec<f64>>,
     /// Whether the set is turned about the normal by an angle of the source's own.
     pub rotated: bool,
 }
@@ -85,8 +87,16 @@ impl Hemisphere {
         let mut order: Vec<u32> = (0..directions.len() as u32).collect();
         group(&mut order, &directions);
         let directions: Vec<DVec3> = order.iter().map(|&i| directions[i as usize]).collect();
-        let weights = order.iter().map(|&i| weights[i as usize]).collect();
-        Ok(Hemisphere { bundles: Bundles::new(&directions), directions, weights, rotated })
+        let weights: Vec<f64> = order.iter().map(|&i| weights[i as usize]).collect();
+        let sums = weights.iter().all(|&weight| weight == weights[0]).then(|| {
+            let mut sum = 0.0;
+            let add = |weight: &f64| {
+                sum += weight;
+                sum
+            };
+            std::iter::once(0.0).chain(weights.iter().map(add)).collect()
+        });
+        Ok(Hemisphere { bundles: Bundles::new(&directions), directions, weights, sums, rotated })
     }
 
     /// Number of pixels.
@@ -137,17 +147,18 @@ fn scramble(state: u64) -> u64 {
     z ^ (z >> 31)
 }
 
-/// Put pixels in an order in which each run of 64 lies together on the disc: halve the longer extent
-/// at a multiple of 64 until no more than 64 are left.
+/// Put pixels in an order in which each run of 64 lies together on the disc, and in it each run of 8:
+/// halve the longer extent at a multiple of that until no more are left.
 fn group(pixels: &mut [u32], directions: &[DVec3]) {
-    if pixels.len() <= WIDTH {
+    if pixels.len() <= LANES {
         pixels.sort_unstable();
         return;
     }
+    let whole = if pixels.len() > WIDTH { WIDTH } else { LANES };
     let around = Bounds::of(pixels.iter().map(|&i| directions[i as usize]));
     let axis = usize::from(around.size().y > around.size().x);
     let at = |i: u32| directions[i as usize][axis];
-    let half = pixels.len().div_ceil(WIDTH) / 2 * WIDTH;
+    let half = pixels.len().div_ceil(whole) / 2 * whole;
     pixels.select_nth_unstable_by(half, |&a, &b| at(a).total_cmp(&at(b)).then(a.cmp(&b)));
     let (low, high) = pixels.split_at_mut(half);
     group(low, directions);
@@ -223,7 +234,10 @@ fn hemicube(side: u32) -> (Vec<DVec3>, Vec<f64>) {
     // Delta form factor up to a constant: the height above the source's plane over distance⁴.
     let raw: Vec<f64> = points.iter().map(|p| p.z / p.length_squared().powi(2)).collect();
     let sum: f64 = raw.iter().sum();
-    (points.iter().map(|p| p.normalize()).collect(), raw.iter().map(|w| w / sum).collect())
+    // Multiples of 2⁻⁵³: their sums are exact, in whatever order pixels are added up.
+    let unit = 2f64.powi(53);
+    let weights = raw.iter().map(|w| (w / sum * unit).round() / unit).collect();
+    (points.iter().map(|p| p.normalize()).collect(), weights)
 }
 
 #[cfg(test)]

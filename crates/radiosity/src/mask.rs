@@ -53,6 +53,11 @@ impl Mask {
         self.words[i as usize / 64] |= 1 << (i % 64);
     }
 
+    /// Make the pixels true whose bits are set in word `word`.
+    pub(crate) fn set_in_word(&mut self, word: usize, bits: u64) {
+        self.words[word] |= bits;
+    }
+
     /// Number of true pixels.
     pub fn count(&self) -> u32 {
         self.words.iter().map(|w| w.count_ones()).sum()

@@ -1,7 +1,9 @@
 //! Shooting a ray at a time: slow, obvious, and the oracle of the fast path.
 
+use crate::bundle::WIDTH;
 use crate::environment::LocalEnvironment;
 use crate::facets::Ray;
+use crate::form_factors::FormFactors;
 use crate::grid::Side;
 use crate::hemisphere::Hemisphere;
 use crate::mask::Mask;
@@ -32,33 +34,33 @@ pub fn shoot_plainly(
     mask: &Mask,
 ) -> Shot {
     let [tangent, bitangent, normal] = hemisphere.frame(source.centre, source.normal);
-    let mut tally = Tally::new(environment, mask);
+    let form_factors = FormFactors::one_by_one(Tally::places(environment), hemisphere);
+    let mut tally = Tally::new(environment, mask, form_factors);
     for pixel in mask.ones() {
         let d = hemisphere.directions[pixel as usize];
-        let weight = hemisphere.weights[pixel as usize];
         let ray = Ray::new(source.centre, tangent * d.x + bitangent * d.y + normal * d.z);
-        let pixel = (pixel, weight);
         cast_pixel(space, environment, &ray, source.polygon, pixel, &mut tally);
     }
-    tally.finish(environment, mask)
+    tally.finish()
 }
 
-/// Cast the ray of a pixel, given with its weight, and count how it ends.
+/// Cast the ray of a pixel and count how it ends.
 pub(crate) fn cast_pixel(
     space: &Space,
     environment: &LocalEnvironment,
     ray: &Ray,
     own_polygon: u32,
-    (pixel, weight): (u32, f64),
+    pixel: u32,
     tally: &mut Tally,
 ) {
-    match cast(space, environment, ray, own_polygon, &mut tally.shot.work) {
+    let (bundle, bit) = (pixel as usize / WIDTH, 1 << (pixel as usize % WIDTH));
+    match cast(space, environment, ray, own_polygon, &mut tally.work) {
         End::Hit { polygon, distance } => {
             let front = space.facets.faces(polygon, ray);
             let patch = environment.patch_at(polygon, ray.at(distance)).filter(|_| front);
-            tally.hit(patch, weight);
+            tally.hit(patch, bundle, bit);
         }
-        End::Leaves(side) => tally.leaves(environment, side, pixel, weight),
+        End::Leaves(side) => tally.leave(side, bundle, bit),
     }
 }
 

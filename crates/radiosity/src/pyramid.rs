@@ -6,7 +6,7 @@ use glam::DVec3;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pyramid {
     pub(crate) apex: DVec3,
-    /// Towards the outside; zero where a bundle is too wide for a plane.
+    /// Unit vectors towards the outside; zero where a bundle is too wide for a plane.
     pub(crate) outwards: [DVec3; 4],
 }
 
@@ -29,7 +29,7 @@ impl Pyramid {
         let mut outwards = [DVec3::ZERO; 4];
         if narrow > 0.1 {
             for ((plane, side), reach) in outwards.iter_mut().zip([u, -u, v, -v]).zip(reach) {
-                *plane = side - axis * (reach + 1e-6);
+                *plane = (side - axis * (reach + 1e-6)).normalize();
             }
         }
         Pyramid { apex: DVec3::ZERO, outwards }

@@ -1,14 +1,22 @@
 //! Shooting a source through a local environment (§3.3, §4.2.3).
 
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, dispatch};
+
 use crate::bundle::{Rays, WIDTH};
 use crate::environment::LocalEnvironment;
+use crate::form_factors::FormFactors;
+use crate::grid::Side;
 use crate::hemisphere::Hemisphere;
+use crate::landing::land;
+use crate::lattice::Lattice;
 use crate::mask::Mask;
+use crate::nearest::Nearest;
 use crate::plain::cast_pixel;
 use crate::shot::{Shot, Source, Tally};
 use crate::space::Space;
 use crate::tree::Waiting;
-use crate::walk::{LANES, Walks};
+use crate::walk::Walk;
 use crate::work::Operation;
 
 /// Cast the rays of all true pixels of `mask` from `source` through `environment`.
@@ -30,34 +38,41 @@ pub fn shoot(
     source: &Source,
     mask: &Mask,
 ) -> Shot {
+    dispatch!(Level::new(), simd => shoot_on(simd, space, environment, hemisphere, source, mask))
+}
+
+/// [`shoot`] with the vector instructions that the host has.
+#[inline(always)]
+fn shoot_on<S: Simd>(
+    simd: S,
+    space: &Space,
+    environment: &LocalEnvironment,
+    hemisphere: &Hemisphere,
+    source: &Source,
+    mask: &Mask,
+) -> Shot {
     let frame = hemisphere.frame(source.centre, source.normal);
+    let form_factors = FormFactors::new(Tally::places(environment), hemisphere);
     let mut volley = Volley {
         space,
         environment,
-        hemisphere,
-        source,
+        own_polygon: source.polygon,
         own_piece: environment.piece(source.polygon),
-        start: space.grid.cell_of(source.centre),
         rays: Rays::from(source.centre, frame),
+        nearest: Nearest::new(),
         waiting: Waiting::default(),
-        walks: Walks::new(&space.grid, environment.block, source.centre),
-        tally: Tally::new(environment, mask),
+        walk: Walk::new(Lattice::new(&space.grid, environment.block, source.centre)),
+        tally: Tally::new(environment, mask, form_factors),
     };
-    let bounds = space.grid.bounds(&environment.block);
     for (bundle, &word) in mask.words().iter().enumerate().filter(|&(_, &word)| word != 0) {
-        volley.rays.aim(&hemisphere.bundles, bundle, word, &bounds);
-        if !volley.find_hits() {
+        volley.rays.aim(simd, &hemisphere.bundles, bundle);
+        if volley.find_nearest(simd, word) {
+            volley.count(simd, bundle, word);
+        } else {
             volley.one_by_one(bundle, word);
-            continue;
-        }
-        for first in (0..WIDTH).step_by(LANES) {
-            volley.walk(first, word >> first);
-            for lane in (first..first + LANES).filter(|lane| word >> lane & 1 == 1) {
-                volley.end(lane, bundle * WIDTH + lane);
-            }
         }
     }
-    volley.tally.finish(environment, mask)
+    volley.tally.finish()
 }
 
 /// Polygons that a bundle is tested against before its rays go one by one: some two thirds of what
@@ -68,81 +83,146 @@ const MOST_POLYGONS: usize = 128;
 struct Volley<'a> {
     space: &'a Space,
     environment: &'a LocalEnvironment,
-    hemisphere: &'a Hemisphere,
-    source: &'a Source,
-    /// The source's own polygon among those of the environment, which its rays cannot hit.
+    /// The source's own polygon, which its rays cannot hit.
+    own_polygon: u32,
+    /// The same among those of the environment.
     own_piece: Option<u32>,
-    /// The cell of the source.
-    start: [u32; 3],
     rays: Rays,
+    nearest: Nearest,
     waiting: Waiting,
-    walks: Walks<'a>,
-    tally: Tally,
+    walk: Walk<'a>,
+    tally: Tally<'a>,
 }
 
 impl Volley<'_> {
     /// Test the bundle against the polygons that it can meet, near ones first; whether they were few
     /// enough.
-    fn find_hits(&mut self) -> bool {
-        let Volley { space, environment, own_piece, rays, waiting, .. } = self;
-        let (pyramid, limit) = (rays.pyramid, rays.limit);
+    #[inline(always)]
+    fn find_nearest<S: Simd>(&mut self, simd: S, cast: u64) -> bool {
+        let Volley { space, environment, own_piece, rays, nearest, waiting, .. } = self;
+        nearest.clear(simd, cast);
         let mut polygons = 0;
-        environment.tree.visit(&pyramid, limit, waiting, |piece| {
+        environment.tree.visit(simd, &rays.pyramid, waiting, |piece| {
             if Some(piece) != *own_piece {
-                rays.meet(&space.facets, environment.polygon(piece), piece);
+                nearest.meet(simd, rays, &space.facets, environment.polygon(piece), piece);
             }
             polygons += 1;
-            (polygons <= MOST_POLYGONS).then_some(rays.limit)
+            (polygons <= MOST_POLYGONS).then_some(nearest.limit)
         })
     }
 
     /// Cast the rays of a bundle plainly.
     fn one_by_one(&mut self, bundle: usize, word: u64) {
-        let Volley { space, environment, hemisphere, source, rays, tally, .. } = self;
+        let Volley { space, environment, own_polygon, rays, tally, .. } = self;
         for lane in (0..WIDTH).filter(|lane| word >> lane & 1 == 1) {
-            let pixel = bundle * WIDTH + lane;
-            let pixel = (pixel as u32, hemisphere.weights[pixel]);
-            cast_pixel(space, environment, &rays.ray(lane), source.polygon, pixel, tally);
+            let pixel = (bundle * WIDTH + lane) as u32;
+            cast_pixel(space, environment, &rays.ray(lane), *own_polygon, pixel, tally);
         }
     }
 
-    /// Walk the rays from `first` on that are `cast`, from the source or from where they enter.
-    fn walk(&mut self, first: usize, cast: u64) {
-        let Volley { space, environment, start, rays, walks, .. } = self;
-        if environment.block.contains(*start) {
-            walks.start_together(*start, &rays.lanes(first), cast);
-        } else {
-            walks.clear();
-            for lane in (0..LANES).filter(|lane| cast >> lane & 1 == 1) {
-                let ray = rays.ray(first + lane);
-                if let Some(passage) = space.grid.enter(&environment.block, &ray, *start) {
-                    let hit = rays.hit(first + lane);
-                    let distance = hit.map_or(f64::INFINITY, |hit| hit.distance);
-                    walks.start(lane, &ray, passage.cell, passage.next, distance);
+    /// Walk the rays of a bundle, and count what they do and how they end.
+    #[inline(always)]
+    fn count<S: Simd>(&mut self, simd: S, bundle: usize, word: u64) {
+        let Volley { environment, rays, nearest, walk, tally, .. } = self;
+        let walked = walk.run(simd, rays, nearest, word);
+        tally.work.count(Operation::Ray, u64::from(word.count_ones()));
+        tally.work.count(Operation::CellStep, walked.steps);
+        tally.work.count(Operation::PolygonTest, walked.tests);
+        for (side, &left) in Side::ALL.into_iter().zip(&walked.left).filter(|&(_, &rays)| rays != 0)
+        {
+            tally.leave(side, bundle, left);
+        }
+        land(simd, rays, nearest, environment, walked.ended, |patch, rays| {
+            tally.hit(patch, bundle, rays);
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::environment::{Patch, PatchSize};
+    use crate::hemisphere::HemisphereKind;
+    use crate::plain::shoot_plainly;
+    use crate::scene::{Face, Material, Rgb, Scene};
+    use glam::DVec3;
+
+    /// A box seen from inside, with a slanted triangle and a plate in it.
+    fn space() -> Space {
+        let corner = |i: usize| DVec3::new((i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64);
+        let sides =
+            [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
+        let mut faces: Vec<Vec<DVec3>> =
+            sides.iter().map(|side| side.iter().map(|&i| corner(i)).collect()).collect();
+        faces.push(vec![DVec3::splat(0.3), DVec3::new(0.8, 0.3, 0.4), DVec3::new(0.5, 0.7, 0.6)]);
+        let plate = [[0.2, 0.2], [0.2, 0.5], [0.7, 0.5], [0.7, 0.2]];
+        faces.push(plate.iter().map(|&[x, y]| DVec3::new(x, y, 0.25)).collect());
+        let faces = faces.into_iter().map(|points| Face { points, material: 0, object: 0 });
+        let material = Material {
+            name: "grey".to_owned(),
+            reflectance: Rgb::splat(0.5),
+            emission: Rgb::ZERO,
+            two_sided: false,
+        };
+        let faces: Vec<Face> = faces.collect();
+        let scene = Scene::new(&faces, vec![material], vec!["all".to_owned()]);
+        Space::new(scene.expect("a closed box").0, [5, 4, 3])
+    }
+
+    /// Shoots every patch through its own of two environments and on through the other.
+    fn all_shots<S: Simd>(simd: S, space: &Space, environments: &[LocalEnvironment; 2]) {
+        for kind in [HemisphereKind::Fibonacci, HemisphereKind::Concentric] {
+            let hemisphere = Hemisphere::new(kind, 256, false).expect("a square");
+            for (from, own) in environments.iter().enumerate() {
+                for (patch, &Patch { centre, polygon, .. }) in own.patches.iter().enumerate() {
+                    let source = Source {
+                        environment: from as u32,
+                        patch: patch as u32,
+                        polygon,
+                        centre,
+                        normal: space.scene.polygons[polygon as usize].plane.normal,
+                        power: Rgb::ONE,
+                        radiosity: Rgb::ONE,
+                    };
+                    let shoot_through = |environment: &LocalEnvironment, mask: &Mask| {
+                        let shot =
+                            || shoot_on(simd, space, environment, &hemisphere, &source, mask);
+                        let shot = simd.vectorize(shot);
+                        let plain = shoot_plainly(space, environment, &hemisphere, &source, mask);
+                        assert!(shot == plain, "patch {patch} of {from}");
+                        shot
+                    };
+                    let shot = shoot_through(own, &Mask::all(hemisphere.pixels()));
+                    for outgoing in shot.outgoing.iter().flatten() {
+                        shoot_through(&environments[1 - from], &outgoing.mask);
+                    }
                 }
             }
         }
-        walks.run();
     }
 
-    /// Count how the ray of a pixel ends.
-    fn end(&mut self, lane: usize, pixel: usize) {
-        let Volley { space, environment, hemisphere, rays, walks, tally, .. } = self;
-        let counted = walks.counted(lane % LANES);
-        tally.work(Operation::Ray, 1);
-        tally.work(Operation::CellStep, counted.steps);
-        tally.work(Operation::PolygonTest, counted.tests);
-        let weight = hemisphere.weights[pixel];
-        let side = match (counted.side, rays.hit(lane)) {
-            (None, Some(hit)) if counted.steps > 0 => {
-                let point = rays.ray(lane).at(hit.distance);
-                let patch = environment.patch_of(hit.piece, point).filter(|_| hit.front);
-                return tally.hit(patch, weight);
+    /// Hosts differ in their vector instructions; rays end in the same places on all of them.
+    #[test]
+    fn all_vector_instructions_shoot_as_single_rays_do() {
+        let space = space();
+        let whole = space.grid.whole();
+        let size = PatchSize { reflector: 0.3, emitter: 0.3 };
+        let (mut low, mut high) = (whole, whole);
+        (low.high[0], high.low[0]) = (2, 2);
+        let environments = [low, high].map(|block| LocalEnvironment::new(&space, block, size));
+        let level = Level::new();
+        dispatch!(level, simd => all_shots(simd, &space, &environments));
+        #[cfg(target_arch = "x86_64")]
+        {
+            if let Some(simd) = level.as_avx2() {
+                all_shots(simd, &space, &environments);
             }
-            (Some(side), _) if counted.steps > 0 => side,
-            // The ray never enters.
-            _ => space.grid.side_towards(&environment.block, &rays.ray(lane)),
-        };
-        tally.leaves(environment, side, pixel as u32, weight);
+            if let Some(simd) = level.as_sse4_2() {
+                all_shots(simd, &space, &environments);
+            }
+            if let Some(simd) = level.as_sse2() {
+                all_shots(simd, &space, &environments);
+            }
+        }
     }
 }

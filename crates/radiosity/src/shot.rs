@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::environment::LocalEnvironment;
+use crate::form_factors::FormFactors;
 use crate::grid::Side;
 use crate::mask::Mask;
 use crate::scene::Rgb;
@@ -56,63 +57,67 @@ pub struct Outgoing {
 }
 
 /// A shot while its pixels are counted.
-pub(crate) struct Tally {
-    pub(crate) shot: Shot,
-    form_factors: Vec<f64>,
-    pixels: u32,
+pub(crate) struct Tally<'a> {
+    environment: &'a LocalEnvironment,
+    mask: &'a Mask,
+    form_factors: FormFactors<'a>,
+    outgoing: [Option<Mask>; 6],
+    pub(crate) work: Work,
 }
 
-impl Tally {
-    pub(crate) fn new(environment: &LocalEnvironment, mask: &Mask) -> Tally {
-        let shot = Shot {
-            hits: Vec::new(),
-            backs: 0.0,
-            escaped: 0.0,
-            outgoing: Default::default(),
-            work: Work::NONE,
-        };
-        Tally { shot, form_factors: vec![0.0; environment.patches.len()], pixels: mask.pixels() }
+impl<'a> Tally<'a> {
+    /// Nothing counted yet; `form_factors` with room for [`Tally::places`].
+    pub(crate) fn new(
+        environment: &'a LocalEnvironment,
+        mask: &'a Mask,
+        form_factors: FormFactors<'a>,
+    ) -> Tally<'a> {
+        Tally { environment, mask, form_factors, outgoing: Default::default(), work: Work::NONE }
     }
 
-    /// A pixel's ray hits the front of a patch, or a back.
-    pub(crate) fn hit(&mut self, patch: Option<u32>, weight: f64) {
-        match patch {
-            Some(patch) => self.form_factors[patch as usize] += weight,
-            None => self.shot.backs += weight,
-        }
-        self.shot.work.count(Operation::Hit, 1);
+    /// Form factors to be counted: of each patch, of backs, of what leaves the scene
+    /// and of what leaves by each side for a neighbour.
+    pub(crate) fn places(environment: &LocalEnvironment) -> usize {
+        environment.patches.len() + 2 + Side::ALL.len()
     }
 
-    /// A pixel's ray leaves by a side: to a neighbour, or out of the scene.
-    pub(crate) fn leaves(
-        &mut self,
-        environment: &LocalEnvironment,
-        side: Side,
-        pixel: u32,
-        weight: f64,
-    ) {
-        if !environment.has_neighbour(side) {
-            self.shot.escaped += weight;
+    /// Rays of the bundle, a bit each, hit the front of a patch, or a back.
+    #[inline]
+    pub(crate) fn hit(&mut self, patch: Option<u32>, bundle: usize, rays: u64) {
+        let place = patch.map_or(self.environment.patches.len(), |patch| patch as usize);
+        self.form_factors.add(place, bundle, rays);
+        self.work.count(Operation::Hit, u64::from(rays.count_ones()));
+    }
+
+    /// Rays of the bundle, a bit each, leave by a side: to a neighbour, or out of the scene.
+    pub(crate) fn leave(&mut self, side: Side, bundle: usize, rays: u64) {
+        let escaped = self.environment.patches.len() + 1;
+        if !self.environment.has_neighbour(side) {
+            self.form_factors.add(escaped, bundle, rays);
             return;
         }
-        let outgoing = self.shot.outgoing[side.index()]
-            .get_or_insert_with(|| Outgoing { mask: Mask::none(self.pixels), form_factor: 0.0 });
-        outgoing.mask.set(pixel);
-        outgoing.form_factor += weight;
+        self.form_factors.add(escaped + 1 + side.index(), bundle, rays);
+        self.outgoing[side.index()]
+            .get_or_insert_with(|| Mask::none(self.mask.pixels()))
+            .set_in_word(bundle, rays);
     }
 
-    /// Count operations.
-    #[inline]
-    pub(crate) fn work(&mut self, operation: Operation, times: u64) {
-        self.shot.work.count(operation, times);
-    }
-
-    pub(crate) fn finish(mut self, environment: &LocalEnvironment, mask: &Mask) -> Shot {
-        let patches = self.form_factors.into_iter().enumerate();
-        let patches = patches.map(|(patch, form_factor)| (patch as u32, form_factor));
-        self.shot.hits = patches.filter(|&(_, form_factor)| form_factor > 0.0).collect();
-        count_passes(&mut self.shot, environment, mask);
-        self.shot
+    pub(crate) fn finish(self) -> Shot {
+        let Tally { environment, mask, form_factors, mut outgoing, work } = self;
+        let patches = environment.patches.len();
+        let hits = (0..patches).map(|patch| (patch as u32, form_factors.of(patch)));
+        let mut shot = Shot {
+            hits: hits.filter(|&(_, form_factor)| form_factor > 0.0).collect(),
+            backs: form_factors.of(patches),
+            escaped: form_factors.of(patches + 1),
+            outgoing: std::array::from_fn(|side| {
+                let form_factor = form_factors.of(patches + 2 + side);
+                outgoing[side].take().map(|mask| Outgoing { mask, form_factor })
+            }),
+            work,
+        };
+        count_passes(&mut shot, environment, mask);
+        shot
     }
 }
 

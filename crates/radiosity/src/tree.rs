@@ -1,46 +1,61 @@
 //! A tree of boxes over the polygons of an environment: which of them a bundle of rays can meet.
 //!
 //! It only saves the host time. What it leaves out no ray of the bundle hits; what the virtual
-//! processor is charged for is the walk through the grid.
+//! processor is charged for is the walk through the grid. So single precision will do, with room for
+//! its rounding.
 
-#![allow(clippy::needless_range_loop, reason = "plain loops become vector instructions")]
-
-use multiversion::multiversion;
+use fearless_simd::f32x16;
+use fearless_simd::prelude::*;
 
 use crate::bounds::Bounds;
 use crate::pyramid::Pyramid;
+use crate::split::{around, split};
 
 /// Children of a node.
-const WIDE: usize = 8;
+const WIDE: usize = 16;
 
-/// A bounding volume hierarchy of nodes with up to eight children, the root first.
+/// A bounding volume hierarchy of nodes with up to sixteen children, the root first.
 #[derive(Default)]
 pub(crate) struct Tree {
     nodes: Vec<Node>,
+    /// The greatest coordinate of a box, either way.
+    reach: f64,
 }
+
+/// A number for each child of a node.
+#[derive(Clone, Copy)]
+#[repr(align(64))]
+struct Each([f32; WIDE]);
 
 /// The boxes of a node's children, coordinate by coordinate, so that all are tested at a time.
 struct Node {
-    low: [[f64; WIDE]; 3],
-    high: [[f64; WIDE]; 3],
-    children: [Child; WIDE],
+    low: [Each; 3],
+    high: [Each; 3],
+    /// Items, with [`ITEM`], or nodes.
+    children: [u32; WIDE],
 }
 
-/// Children to be visited, with the squares of their distances, the next one last.
-#[derive(Default)]
-pub(crate) struct Waiting(Vec<(f64, Child)>);
+const ITEM: u32 = 1 << 31;
 
-#[derive(Clone, Copy)]
-enum Child {
-    None,
-    Node(u32),
-    Item(u32),
+/// Children to be visited, the next one last: the square of its distance, whose bits sort as it does,
+/// over the child.
+#[derive(Default)]
+pub(crate) struct Waiting(Vec<u64>);
+
+/// A pyramid in single precision.
+struct Narrow {
+    apex: [f32; 3],
+    outwards: [[f32; 3]; 4],
+    /// How far rounding can put the corner of a box on the wrong side of a plane, metres.
+    room: f32,
 }
 
 impl Tree {
     /// A tree over boxes; item `i` is box `i`.
     pub(crate) fn new(boxes: &[Bounds]) -> Tree {
-        let mut tree = Tree::default();
+        let reach = |b: &Bounds| b.min.abs().max(b.max.abs()).max_element();
+        let reach = boxes.iter().map(reach).fold(0.0, f64::max);
+        let mut tree = Tree { nodes: Vec::new(), reach };
         if !boxes.is_empty() {
             let mut items: Vec<u32> = (0..boxes.len() as u32).collect();
             tree.build(boxes, &mut items);
@@ -52,138 +67,122 @@ impl Tree {
     fn build(&mut self, boxes: &[Bounds], items: &mut [u32]) -> u32 {
         let place = self.nodes.len();
         // The box of no child is met by no pyramid.
-        let (far, near) = ([[f64::INFINITY; WIDE]; 3], [[f64::NEG_INFINITY; WIDE]; 3]);
-        self.nodes.push(Node { low: far, high: near, children: [Child::None; WIDE] });
-        let mut groups = vec![items];
-        while groups.len() < WIDE {
-            // Halve the largest group.
-            let largest = (0..groups.len())
-                .fold(0, |a, b| if groups[b].len() > groups[a].len() { b } else { a });
-            if groups[largest].len() == 1 {
-                break;
-            }
-            let (low, high) = halve(boxes, groups.swap_remove(largest));
-            groups.extend([low, high]);
-        }
-        for (i, group) in groups.into_iter().enumerate() {
+        let (far, near) = ([Each([f32::INFINITY; WIDE]); 3], [Each([f32::NEG_INFINITY; WIDE]); 3]);
+        self.nodes.push(Node { low: far, high: near, children: [0; WIDE] });
+        for (i, group) in split(boxes, items, WIDE).into_iter().enumerate() {
             let around = around(boxes, group);
             for axis in 0..3 {
-                self.nodes[place].low[axis][i] = around.min[axis];
-                self.nodes[place].high[axis][i] = around.max[axis];
+                self.nodes[place].low[axis].0[i] = (around.min[axis] as f32).next_down();
+                self.nodes[place].high[axis].0[i] = (around.max[axis] as f32).next_up();
             }
             self.nodes[place].children[i] = match *group {
-                [item] => Child::Item(item),
-                _ => Child::Node(self.build(boxes, group)),
+                [item] => item | ITEM,
+                _ => self.build(boxes, group),
             };
         }
         place as u32
     }
 
-    /// Visit the items whose boxes a pyramid meets within `limit` metres of its apex, nearer boxes
-    /// first. A visit returns the limit from then on, or `None` to go no further; whether all were
+    /// Visit the items whose boxes a pyramid meets, nearer boxes first. A visit returns the distance
+    /// from the apex beyond which no more are wanted, or `None` to go no further; whether all were
     /// visited. `waiting` is room to work in, kept by the caller so that no visit asks for memory.
-    pub(crate) fn visit(
+    #[inline(always)]
+    pub(crate) fn visit<S: Simd>(
         &self,
+        simd: S,
         pyramid: &Pyramid,
-        mut limit: f64,
         Waiting(waiting): &mut Waiting,
         mut visit: impl FnMut(u32) -> Option<f64>,
     ) -> bool {
         if self.nodes.is_empty() {
             return true;
         }
+        let pyramid = Narrow::new(pyramid, self.reach);
+        let mut limit = f32::INFINITY;
         waiting.clear();
-        waiting.push((0.0, Child::Node(0)));
-        while let Some((square_distance, child)) = waiting.pop() {
-            if square_distance > limit * limit {
+        waiting.push(0);
+        while let Some(next) = waiting.pop() {
+            let child = next as u32;
+            if f32::from_bits((next >> 32) as u32) > limit {
                 continue;
             }
-            match child {
-                Child::None => {}
-                Child::Item(item) => match visit(item) {
-                    Some(nearer) => limit = nearer,
+            if child & ITEM != 0 {
+                match visit(child & !ITEM) {
+                    Some(nearer) => limit = pyramid.limit(nearer),
                     None => return false,
-                },
-                Child::Node(node) => {
-                    let node = &self.nodes[node as usize];
-                    let met = meets(node, pyramid, limit);
-                    let first = waiting.len();
-                    for (&child, &distance) in node.children.iter().zip(&met) {
-                        if distance < f64::INFINITY {
-                            // Nearest last, to be taken first.
-                            let after = |&(other, _): &(f64, Child)| other > distance;
-                            let place = waiting[first..].partition_point(after);
-                            waiting.insert(first + place, (distance, child));
-                        }
-                    }
                 }
+                continue;
+            }
+            let node = &self.nodes[child as usize];
+            let (mut met, distances) = node.meets(simd, &pyramid, limit);
+            let first = waiting.len();
+            while met != 0 {
+                let i = met.trailing_zeros() as usize % WIDE;
+                met &= met - 1;
+                let child = u64::from(distances[i].to_bits()) << 32 | u64::from(node.children[i]);
+                // Nearest last, to be taken first.
+                waiting.push(child);
+                let mut place = waiting.len() - 1;
+                while place > first && waiting[place - 1] < child {
+                    waiting[place] = waiting[place - 1];
+                    place -= 1;
+                }
+                waiting[place] = child;
             }
         }
         true
     }
 }
 
-/// Halve items along the longest side of the box around them.
-fn halve<'a>(boxes: &[Bounds], items: &'a mut [u32]) -> (&'a mut [u32], &'a mut [u32]) {
-    let size = around(boxes, items).size();
-    let axis = (0..3).fold(0, |best, axis| if size[axis] > size[best] { axis } else { best });
-    let middle = |i: u32| boxes[i as usize].min[axis] + boxes[i as usize].max[axis];
-    let half = items.len() / 2;
-    items.select_nth_unstable_by(half, |&a, &b| middle(a).total_cmp(&middle(b)).then(a.cmp(&b)));
-    items.split_at_mut(half)
-}
-
-fn around(boxes: &[Bounds], items: &[u32]) -> Bounds {
-    Bounds::of(items.iter().flat_map(|&i| [boxes[i as usize].min, boxes[i as usize].max]))
-}
-
-/// The square of the distance of each child's box from the apex; infinite if it lies farther than
-/// `limit` or outside the pyramid.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512dq+avx512vl+avx512bw",
-    "x86_64+avx2",
-    "aarch64+neon"
-))]
-fn meets(node: &Node, pyramid: &Pyramid, limit: f64) -> [f64; WIDE] {
-    let mut square = [0.0; WIDE];
-    let mut low = [[0.0; WIDE]; 3];
-    let mut high = [[0.0; WIDE]; 3];
-    for axis in 0..3 {
-        let apex = pyramid.apex[axis];
-        for i in 0..WIDE {
-            low[axis][i] = node.low[axis][i] - apex;
-            high[axis][i] = node.high[axis][i] - apex;
-        }
-        for i in 0..WIDE {
-            let (l, h) = (low[axis][i], high[axis][i]);
-            let outside = if l > 0.0 { l } else { 0.0 } + if h < 0.0 { h } else { 0.0 };
-            square[i] += outside * outside;
+impl Narrow {
+    /// A coordinate, a difference of two and a product with a component of a unit vector are each
+    /// rounded by 2⁻²⁴ of at most twice the greatest coordinate: some 2 × 10⁻⁶ of it for all three
+    /// axes.
+    fn new(pyramid: &Pyramid, reach: f64) -> Narrow {
+        let reach = pyramid.apex.abs().max_element().max(reach);
+        Narrow {
+            apex: pyramid.apex.as_vec3().to_array(),
+            outwards: pyramid.outwards.map(|plane| plane.as_vec3().to_array()),
+            room: (reach * 4e-6) as f32,
         }
     }
-    let mut inside = [u64::MAX; WIDE];
-    for plane in pyramid.outwards {
-        let mut least = [0.0; WIDE];
+
+    /// The square of a distance, with room.
+    fn limit(&self, distance: f64) -> f32 {
+        let limit = distance as f32 * (1.0 + 1e-5) + self.room;
+        limit * limit
+    }
+}
+
+impl Node {
+    /// Children whose boxes meet a pyramid no farther away than the root of `limit`, a bit each, and
+    /// the squares of the distances of all boxes from the apex.
+    #[inline(always)]
+    fn meets<S: Simd>(&self, simd: S, pyramid: &Narrow, limit: f32) -> (u64, [f32; WIDE]) {
+        let mut square = f32x16::splat(simd, 0.0);
+        // How far inside each of the four planes the corner lies that is farthest so.
+        let mut least = [square; 4];
         for axis in 0..3 {
-            // The corner farthest inside is the same for all boxes.
-            let corner = if plane[axis] > 0.0 { &low[axis] } else { &high[axis] };
-            for i in 0..WIDE {
-                least[i] += plane[axis] * corner[i];
+            let apex = pyramid.apex[axis];
+            let low = f32x16::load_array_ref(simd, &self.low[axis].0) - apex;
+            let high = f32x16::load_array_ref(simd, &self.high[axis].0) - apex;
+            let outside = low.max(-high).max(0.0);
+            square += outside * outside;
+            for (least, plane) in least.iter_mut().zip(&pyramid.outwards) {
+                *least += plane[axis] * if plane[axis] > 0.0 { low } else { high };
             }
         }
-        for i in 0..WIDE {
-            inside[i] &= u64::from(least[i] <= 0.0).wrapping_neg();
+        let mut met = square.simd_le(limit);
+        for least in least {
+            met &= least.simd_le(pyramid.room);
         }
+        (met.to_bitmask(), square.to_array())
     }
-    for i in 0..WIDE {
-        let near = u64::from(square[i] <= limit * limit).wrapping_neg() & inside[i];
-        let far = f64::INFINITY.to_bits() & !near;
-        square[i] = f64::from_bits((square[i].to_bits() & near) | far);
-    }
-    square
 }
 
 #[cfg(test)]
 mod tests {
+    use fearless_simd::{Level, dispatch};
     use glam::DVec3;
 
     use super::*;
@@ -205,9 +204,11 @@ mod tests {
         let pyramid = Pyramid::around(&directions).over(apex, frame);
         for limit in [2.0, 5.0, 100.0] {
             let mut visited = vec![false; boxes.len()];
-            tree.visit(&pyramid, limit, &mut Waiting::default(), |item| {
-                visited[item as usize] = true;
-                Some(limit)
+            dispatch!(Level::new(), simd => {
+                tree.visit(simd, &pyramid, &mut Waiting::default(), |item| {
+                    visited[item as usize] = true;
+                    Some(limit)
+                })
             });
             assert!(visited.iter().filter(|&&v| v).count() < 100, "culls nothing");
             for direction in &directions {

@@ -1,282 +1,204 @@
-//! Walks of several rays from one source through the grid, side by side, to count what the virtual
-//! processor does: [`Passage`](crate::grid::Passage) without testing a polygon.
+//! The walk of a bundle's rays through the grid, those in the same cell together: where they end, and
+//! what the virtual processor is charged for. It is [`Passage`](crate::grid::Passage) for 64 rays at
+//! a time, without testing a polygon.
 
-#![allow(clippy::needless_range_loop, reason = "plain loops become vector instructions")]
+use fearless_simd::prelude::*;
 
-use glam::DVec3;
-use multiversion::multiversion;
+use crate::bundle::{CHUNKS, LANES, Rays, of_chunk};
+use crate::entry::Entry;
+use crate::grid::Side;
+use crate::lattice::Lattice;
+use crate::nearest::Nearest;
+use crate::way::Way;
 
-use crate::facets::Ray;
-use crate::grid::{Block, Grid, Side};
-
-/// Rays done at a time.
-pub(crate) const LANES: usize = 8;
-
-type Lanes = [f64; LANES];
-type Whole = [i64; LANES];
-
-/// Rays on their way, each in its own cell.
-pub(crate) struct Walks<'a> {
-    grid: &'a Grid,
-    block: Block,
-    /// Distance from the origin to each plane, axis after axis; one more at either end of an axis
-    /// stands for the plane that a ray which leaves the grid would cross next.
-    planes: Vec<f64>,
-    /// Where the planes of each axis start.
-    first: [i64; 3],
-    /// By how much the number of a cell changes at a step up each axis.
-    stride: [i64; 3],
-    state: State,
+/// Walks through one block from one source.
+pub(crate) struct Walk<'a> {
+    lattice: Lattice<'a>,
+    entry: Entry,
+    here: Vec<Group>,
+    /// Where groups go from here; rays that come to one cell from several go on as one group.
+    next: Vec<Group>,
 }
 
-/// What each ray is about to do, and what it did.
+/// Rays of a bundle, a bit each, that are in the same cell.
+#[derive(Clone, Copy)]
+struct Group {
+    cell: u32,
+    /// The plane ahead of them on each axis, by its place among all.
+    ahead: [u32; 3],
+    rays: u64,
+}
+
+/// What becomes of a group on each axis when it crosses the plane ahead, for rays that go the same way
+/// on all.
+struct Course {
+    ways: [Way; 3],
+    /// To the next plane.
+    step: [i32; 3],
+    /// To the next cell.
+    stride: [i32; 3],
+    /// The plane at the end of the block.
+    end: [u32; 3],
+}
+
+/// What came of a walk.
 #[derive(Default)]
-struct State {
-    walking: [u64; LANES],
-    /// Where to stop.
-    distance: Lanes,
-    /// Cell.
-    at: Whole,
-    /// By axis: distance of the next crossing, the plane after it, cells left before the block ends.
-    next: [Lanes; 3],
-    plane: [Whole; 3],
-    left: [Whole; 3],
-    /// By axis: 1 / direction, and by how much plane and cell change at a crossing.
-    inverse: [Lanes; 3],
-    step: [Whole; 3],
-    stride: [Whole; 3],
-    steps: [u64; LANES],
-    tests: [u64; LANES],
-    /// The axis of the crossing that left the block; 3 while none did.
-    out: [u64; LANES],
-}
-
-/// Directions of several rays and how far each goes.
-pub(crate) struct Aim<'a> {
-    pub(crate) direction: [&'a Lanes; 3],
-    pub(crate) inverse: [&'a Lanes; 3],
-    pub(crate) distance: Lanes,
-}
-
-/// What lies around a cell along one axis.
-struct Ahead {
-    /// Distances of the planes below and above.
-    planes: [f64; 2],
-    /// The place of the plane below.
-    place: i64,
-    /// Cells left before the block ends, downwards and upwards.
-    left: [i64; 2],
-    /// By how much the cell changes at a crossing upwards.
-    stride: i64,
-}
-
-/// What a walk counted.
-pub(crate) struct Counted {
+pub(crate) struct Walked {
+    /// Cells come through, over all rays.
     pub(crate) steps: u64,
+    /// Polygons in them.
     pub(crate) tests: u64,
-    /// The side by which the ray left the block before it had gone its distance.
-    pub(crate) side: Option<Side>,
+    /// Rays that end on their hit.
+    pub(crate) ended: u64,
+    /// Rays that leave the block, by side.
+    pub(crate) left: [u64; 6],
 }
 
-impl<'a> Walks<'a> {
-    /// Walks through a block from a source.
-    pub(crate) fn new(grid: &'a Grid, block: Block, origin: DVec3) -> Walks<'a> {
-        let mut planes = Vec::new();
-        let mut first = [0; 3];
-        for axis in 0..3 {
-            planes.push(f64::INFINITY);
-            first[axis] = planes.len() as i64;
-            planes.extend(grid.planes[axis].iter().map(|plane| plane - origin[axis]));
-            planes.push(f64::INFINITY);
-        }
-        let [nx, ny, _] = grid.cells().map(i64::from);
-        let stride = [1, nx, nx * ny];
-        Walks { grid, block, planes, first, stride, state: State::default() }
+impl<'a> Walk<'a> {
+    pub(crate) fn new(lattice: Lattice<'a>) -> Walk<'a> {
+        Walk { lattice, entry: Entry::default(), here: Vec::new(), next: Vec::new() }
     }
 
-    /// Forget the walks of before.
-    pub(crate) fn clear(&mut self) {
-        self.state = State::default();
-    }
-
-    /// Start walks in the cell of the source itself, for those lanes that are `cast`; each goes as far
-    /// as its `distance`.
-    pub(crate) fn start_together(&mut self, cell: [u32; 3], aim: &Aim, cast: u64) {
-        let ahead = std::array::from_fn(|axis| {
-            let (low, high) = (self.block.low[axis], self.block.high[axis]);
-            let place = self.first[axis] + i64::from(cell[axis]);
-            Ahead {
-                planes: [place, place + 1].map(|plane| self.planes[plane as usize]),
-                place,
-                left: [cell[axis] - low, high - 1 - cell[axis]].map(i64::from),
-                stride: self.stride[axis],
-            }
-        });
-        self.state.at = [self.grid.index(cell) as i64; LANES];
-        start_together(&mut self.state, &ahead, aim, cast);
-    }
-
-    /// Start a walk where a ray enters the block: in `cell`, its next crossings at `next`.
-    #[inline]
-    pub(crate) fn start(
+    /// Walk those rays of a bundle that are `cast`, each to its hit or out of the block.
+    #[inline(always)]
+    pub(crate) fn run<S: Simd>(
         &mut self,
-        lane: usize,
-        ray: &Ray,
-        cell: [u32; 3],
-        next: [f64; 3],
-        distance: f64,
+        simd: S,
+        rays: &Rays,
+        nearest: &Nearest,
+        cast: u64,
+    ) -> Walked {
+        let found = nearest.found();
+        let mut walked = Walked::default();
+        let mut rest = cast;
+        while rest != 0 {
+            // Those that go the same way on every axis go together: mostly all of them.
+            let (ways, alike) = Way::of_first(rays, rest);
+            rest &= !alike;
+            let course = Course::new(&self.lattice, ways);
+            self.enter(simd, rays, &course, alike, &mut walked);
+            while !self.here.is_empty() {
+                for group in 0..self.here.len() {
+                    let group = self.here[group];
+                    let ahead = group.ahead.map(|plane| self.lattice.planes[plane as usize]);
+                    let crossings = next_crossings(simd, rays, nearest, group.rays, ahead);
+                    self.step(&course, group, crossings, found, &mut walked);
+                }
+                self.here.clear();
+                std::mem::swap(&mut self.here, &mut self.next);
+            }
+        }
+        walked
+    }
+
+    /// Put rays into the cells in which their walk starts.
+    #[inline(always)]
+    fn enter<S: Simd>(
+        &mut self,
+        simd: S,
+        rays: &Rays,
+        course: &Course,
+        cast: u64,
+        walked: &mut Walked,
     ) {
-        let state = &mut self.state;
-        state.walking[lane] = u64::MAX;
-        state.distance[lane] = distance;
-        state.at[lane] = self.grid.index(cell) as i64;
-        state.out[lane] = 3;
-        for axis in 0..3 {
-            let upper = ray.direction[axis] > 0.0;
-            let step = if upper { 1 } else { -1 };
-            let (low, high) = (self.block.low[axis], self.block.high[axis]);
-            let left = if upper { high - 1 - cell[axis] } else { cell[axis] - low };
-            state.next[axis][lane] = next[axis];
-            state.plane[axis][lane] =
-                self.first[axis] + i64::from(cell[axis]) + i64::from(upper) + step;
-            state.left[axis][lane] = i64::from(left);
-            state.inverse[axis][lane] = ray.inverse[axis];
-            state.step[axis][lane] = step;
-            state.stride[axis][lane] = step * self.stride[axis];
+        let Walk { lattice, entry, here, .. } = self;
+        let mut start = |cell: [u32; 3], rays: u64| {
+            let (ahead, cell) = (lattice.ahead(course.ways, cell), lattice.grid.index(cell) as u32);
+            here.push(Group { cell, ahead, rays });
+        };
+        if lattice.block.contains(lattice.start) {
+            start(lattice.start, cast);
+            return;
+        }
+        let never = entry.find(simd, lattice, rays, course.ways, cast);
+        entry.cells.iter().for_each(|&(cell, rays)| start(cell, rays));
+        if never != 0 {
+            let side = lattice.block.side_towards(lattice.start, course.ways[0] == Way::Up);
+            walked.left[side.index()] |= never;
         }
     }
 
-    /// Walk all to their ends.
-    pub(crate) fn run(&mut self) {
-        run(&mut self.state, &self.planes, &self.grid.starts);
+    /// Go on from one cell.
+    #[inline(always)]
+    fn step(
+        &mut self,
+        course: &Course,
+        group: Group,
+        [there, x, y]: [u64; 3],
+        found: u64,
+        walked: &mut Walked,
+    ) {
+        let count = u64::from(group.rays.count_ones());
+        walked.steps += count;
+        walked.tests += count * self.lattice.grid.polygons_in(group.cell);
+        let ended = there & group.rays & found;
+        walked.ended |= ended;
+        let going = group.rays & !ended;
+        for (axis, crossing) in [x, y & !x, !x & !y].into_iter().enumerate() {
+            let crossing = Group { rays: going & crossing, ..group };
+            if crossing.rays != 0 {
+                self.cross(course, axis, crossing, walked);
+            }
+        }
     }
 
-    /// What a walk counted.
-    #[inline]
-    pub(crate) fn counted(&self, lane: usize) -> Counted {
-        let state = &self.state;
-        let axis = state.out[lane] as usize;
-        let side = (axis < 3).then(|| Side { axis, upper: state.step[axis][lane] > 0 });
-        Counted { steps: state.steps[lane], tests: state.tests[lane], side }
-    }
-}
-
-/// Of three values the one whose mask is all ones, the other masks being zero.
-macro_rules! choose {
-    ($masks:expr, $l:expr; $x:expr, $y:expr, $z:expr) => {
-        ($masks[0][$l] & $x) | ($masks[1][$l] & $y) | ($masks[2][$l] & $z)
-    };
-}
-
-/// Take the chosen axis on to its next crossing.
-macro_rules! advance {
-    ($state:expr, $axis:literal, $chosen:expr, $ahead:expr, $at:expr) => {
-        let (mut next, mut plane) = ($state.next[$axis], $state.plane[$axis]);
-        let mut left = $state.left[$axis];
-        let (inverse, step) = ($state.inverse[$axis], $state.step[$axis]);
-        let (stride, chosen) = ($state.stride[$axis], $chosen[$axis]);
-        for l in 0..LANES {
-            let crossing = ($ahead[l] * inverse[l]).to_bits();
-            next[l] = f64::from_bits((crossing & chosen[l]) | (next[l].to_bits() & !chosen[l]));
+    /// Take rays over the plane ahead on an axis, to the next cell or out of the block.
+    #[inline(always)]
+    fn cross(&mut self, course: &Course, axis: usize, mut group: Group, walked: &mut Walked) {
+        if group.ahead[axis] == course.end[axis] {
+            let side = Side { axis, upper: course.ways[axis] == Way::Up };
+            walked.left[side.index()] |= group.rays;
+            return;
         }
-        for l in 0..LANES {
-            plane[l] += step[l] & chosen[l] as i64;
-            left[l] -= (chosen[l] & 1) as i64;
-            $at[l] += stride[l] & chosen[l] as i64;
+        group.ahead[axis] = group.ahead[axis].wrapping_add_signed(course.step[axis]);
+        group.cell = group.cell.wrapping_add_signed(course.stride[axis]);
+        match self.next.iter_mut().find(|other| other.cell == group.cell) {
+            Some(other) => other.rays |= group.rays,
+            None => self.next.push(group),
         }
-        $state.next[$axis] = next;
-        $state.plane[$axis] = plane;
-        $state.left[$axis] = left;
-    };
-}
-
-// Plain loops over arrays of known length, for the sake of vector instructions.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512dq+avx512vl+avx512bw",
-    "x86_64+avx2",
-    "aarch64+neon"
-))]
-fn start_together(state: &mut State, ahead: &[Ahead; 3], aim: &Aim<'_>, cast: u64) {
-    for l in 0..LANES {
-        state.walking[l] = (cast >> l & 1).wrapping_neg();
-    }
-    state.distance = aim.distance;
-    state.out = [3; LANES];
-    state.steps = [0; LANES];
-    state.tests = [0; LANES];
-    for axis in 0..3 {
-        let Ahead { planes, place, left, stride } = &ahead[axis];
-        let (direction, inverse) = (aim.direction[axis], aim.inverse[axis]);
-        let mut next = [0.0f64; LANES];
-        for l in 0..LANES {
-            let plane = if direction[l] > 0.0 { planes[1] } else { planes[0] };
-            let crossing = plane * inverse[l];
-            next[l] = if direction[l] == 0.0 { f64::INFINITY } else { crossing };
-        }
-        state.next[axis] = next;
-        state.inverse[axis] = *inverse;
-        let (mut step, mut strides) = ([0; LANES], [0; LANES]);
-        let (mut lefts, mut after) = ([0; LANES], [0; LANES]);
-        for l in 0..LANES {
-            let upper = direction[l] > 0.0;
-            step[l] = if upper { 1 } else { -1 };
-            strides[l] = if upper { *stride } else { -*stride };
-            lefts[l] = if upper { left[1] } else { left[0] };
-            after[l] = if upper { *place + 2 } else { *place - 1 };
-        }
-        (state.step[axis], state.stride[axis]) = (step, strides);
-        (state.left[axis], state.plane[axis]) = (lefts, after);
     }
 }
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512dq+avx512vl+avx512bw",
-    "x86_64+avx2",
-    "aarch64+neon"
-))]
-fn run(state: &mut State, planes: &[f64], starts: &[u32]) {
-    let (mut walking, mut out, mut at) = (state.walking, state.out, state.at);
-    let (mut steps, mut tests) = (state.steps, state.tests);
-    let distance = state.distance;
-    while walking != [0; LANES] {
-        for l in 0..LANES {
-            let cell = at[l] as usize;
-            tests[l] += u64::from(starts[cell + 1] - starts[cell]) & walking[l];
+impl Course {
+    fn new(lattice: &Lattice, ways: [Way; 3]) -> Course {
+        let [nx, ny, _] = lattice.grid.cells().map(|n| n as i32);
+        let mut course = Course { ways, step: [0; 3], stride: [1, nx, nx * ny], end: [0; 3] };
+        for (axis, way) in ways.into_iter().enumerate() {
+            let (step, end) = match way {
+                Way::Down => (-1, lattice.block.low[axis]),
+                Way::Level => (0, 0),
+                Way::Up => (1, lattice.block.high[axis]),
+            };
+            course.step[axis] = step;
+            course.stride[axis] *= step;
+            course.end[axis] = lattice.first[axis] + end;
         }
-        let mut chosen = [[0u64; LANES]; 3];
-        let mut after = [0u64; LANES];
-        let [x, y, z] = state.next;
-        for l in 0..LANES {
-            // The nearest crossing; of equal ones that of the lower axis.
-            chosen[0][l] = u64::from((x[l] <= y[l]) & (x[l] <= z[l])).wrapping_neg();
-            chosen[1][l] = u64::from(y[l] <= z[l]).wrapping_neg() & !chosen[0][l];
-            chosen[2][l] = !(chosen[0][l] | chosen[1][l]);
-        }
-        let [left_x, left_y, left_z] = state.left;
-        let [plane_x, plane_y, plane_z] = state.plane;
-        for l in 0..LANES {
-            let crossing = choose!(chosen, l; x[l].to_bits(), y[l].to_bits(), z[l].to_bits());
-            let there = u64::from(distance[l] <= f64::from_bits(crossing)).wrapping_neg();
-            let left = choose!(chosen, l; left_x[l] as u64, left_y[l] as u64, left_z[l] as u64);
-            let leaves = u64::from(left == 0).wrapping_neg() & !there & walking[l];
-            let axis = (chosen[1][l] & 1) | (chosen[2][l] & 2);
-            steps[l] += walking[l] & 1;
-            out[l] = (leaves & axis) | (!leaves & out[l]);
-            walking[l] &= !there & !leaves;
-        }
-        for l in 0..LANES {
-            chosen[0][l] &= walking[l];
-            chosen[1][l] &= walking[l];
-            chosen[2][l] &= walking[l];
-            after[l] = choose!(chosen, l; plane_x[l] as u64, plane_y[l] as u64, plane_z[l] as u64);
-        }
-        let mut ahead = [0.0f64; LANES];
-        for l in 0..LANES {
-            ahead[l] = planes[after[l] as usize];
-        }
-        advance!(state, 0, chosen, ahead, at);
-        advance!(state, 1, chosen, ahead, at);
-        advance!(state, 2, chosen, ahead, at);
+        course
     }
-    (state.walking, state.out, state.steps, state.tests) = (walking, out, steps, tests);
+}
+
+/// Of rays in a cell, the planes ahead of it at these distances along each axis: those whose hit is
+/// no farther than the nearest crossing; those that cross the plane of x first; of the others, but not
+/// of them alone, those that cross that of y first. Of equal crossings that of the lower axis is first.
+#[inline(always)]
+fn next_crossings<S: Simd>(
+    simd: S,
+    rays: &Rays,
+    nearest: &Nearest,
+    group: u64,
+    ahead: [f64; 3],
+) -> [u64; 3] {
+    let mut found = [0; 3];
+    for chunk in (0..CHUNKS).filter(|&chunk| of_chunk(group, chunk) != 0) {
+        let x = ahead[0] * rays.inverse[0][chunk].load(simd);
+        let y = ahead[1] * rays.inverse[1][chunk].load(simd);
+        let z = ahead[2] * rays.inverse[2][chunk].load(simd);
+        let y_or_z = y.min(z);
+        let first = x.min(y_or_z);
+        let there = nearest.distance[chunk].load(simd).simd_le(first);
+        for (found, mask) in found.iter_mut().zip([there, x.simd_le(y_or_z), y.simd_le(z)]) {
+            *found |= mask.to_bitmask() << (chunk * LANES);
+        }
+    }
+    found
 }

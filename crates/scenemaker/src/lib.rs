@@ -16,6 +16,8 @@ mod stream;
 
 use std::{fmt, str::FromStr};
 
+pub use rooms::MOST_TABLES;
+
 /// A scene of section 5.1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SceneKind {
@@ -44,10 +46,16 @@ pub struct SceneText {
 pub fn make(kind: SceneKind, seed: u64) -> SceneText {
     let obj = match kind {
         SceneKind::Office => office::draw(seed),
-        SceneKind::Rooms => rooms::draw(),
+        SceneKind::Rooms => return make_rooms(rooms::TABLES, seed),
         SceneKind::Building => building::draw(seed),
     };
     obj.into_text(kind.name(), seed)
+}
+
+/// Makes the rooms with another number of tables in each, at most [`MOST_TABLES`]: the same walls and
+/// doors with few polygons or many, to see what their number costs.
+pub fn make_rooms(tables: u32, seed: u64) -> SceneText {
+    rooms::draw(tables.min(MOST_TABLES)).into_text(SceneKind::Rooms.name(), seed)
 }
 
 impl SceneKind {

@@ -22,10 +22,12 @@ const HALF_WALL: i32 = 100;
 const HEIGHT: i32 = 3000;
 /// Width and height of a door, mm.
 const DOORWAY: [i32; 2] = [1000, 2100];
-/// Size of a table's top, mm.
-const TABLE: [i32; 2] = [1200, 800];
-/// From the room's centre to a table's, along x and y, mm.
-const TABLE_OFFSET: [i32; 2] = [1250, 1250];
+/// Tables of a room.
+pub const TABLES: u32 = 4;
+/// Most tables of a room: of so many on a square of seven by seven, the tops still overhang the columns.
+pub const MOST_TABLES: u32 = 49;
+/// Size of the top of a table that has a room to itself, mm.
+const TABLE: [i32; 2] = [2400, 1600];
 /// From the room's centre to each of the light's three tubes along y, mm.
 const TUBES: [i32; 3] = [-200, 0, 200];
 /// Length and width of a tube, mm: four patches of 0.3 m.
@@ -33,18 +35,18 @@ const TUBE: [i32; 2] = [1200, 120];
 /// How far the light hangs below the ceiling, mm.
 const DROP: i32 = 30;
 
-/// Draws the scene.
-pub fn draw() -> Obj {
+/// Draws the scene, with at most [`MOST_TABLES`] in each room.
+pub fn draw(tables: u32) -> Obj {
     let mut obj = Obj::default();
     for row in 0..GRID[1] {
         for column in 0..GRID[0] {
-            room(&mut obj, column, row);
+            room(&mut obj, column, row, tables);
         }
     }
     obj
 }
 
-fn room(obj: &mut Obj, column: i32, row: i32) {
+fn room(obj: &mut Obj, column: i32, row: i32, tables: u32) {
     let number = row * GRID[0] + column + 1;
     let cell = Cuboid {
         x: [column * PITCH, (column + 1) * PITCH],
@@ -60,10 +62,13 @@ fn room(obj: &mut Obj, column: i32, row: i32) {
         Up | Down => false,
     });
     let centre = [cell.x[0] + PITCH / 2, cell.y[0] + PITCH / 2];
-    for (i, [sx, sy]) in [[-1, -1], [1, -1], [-1, 1], [1, 1]].into_iter().enumerate() {
+    // On the least square that holds them all, each as large as its share of the room allows.
+    let side = (1..).find(|side| side * side >= tables as i32).unwrap_or(1);
+    for i in 0..tables as i32 {
         obj.object(format_args!("table {number}.{}", i + 1));
-        let place = [centre[0] + sx * TABLE_OFFSET[0], centre[1] + sy * TABLE_OFFSET[1]];
-        column_table(obj, place, TABLE);
+        let along = |start: i32, step: i32| start + (2 * step + 1) * PITCH / (2 * side);
+        let place = [along(cell.x[0], i % side), along(cell.y[0], i / side)];
+        column_table(obj, place, TABLE.map(|size| size / side));
     }
     obj.object(format_args!("light {number}"));
     for y in TUBES {

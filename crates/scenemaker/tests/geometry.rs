@@ -9,15 +9,18 @@ use radiosity::glam::{DVec2, DVec3};
 use radiosity::{Polygon, Scene, load_obj};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use scenemaker::{SceneKind, make};
+use scenemaker::{MOST_TABLES, SceneKind, SceneText, make, make_rooms};
 
 const SEEDS: [u64; 3] = [1996, 7, u64::MAX];
 
 /// A scene as any program would read it, with nothing to remark on. World coordinates are local
 /// ones plus the scene's origin.
 fn load(kind: SceneKind, seed: u64) -> Scene {
+    read(kind, seed, make(kind, seed))
+}
+
+fn read(kind: SceneKind, seed: u64, text: SceneText) -> Scene {
     let folder = tempfile::tempdir().unwrap();
-    let text = make(kind, seed);
     let path = folder.path().join(format!("{kind}.obj"));
     fs::write(&path, &text.obj).unwrap();
     fs::write(folder.path().join(format!("{kind}.mtl")), text.mtl).unwrap();
@@ -33,6 +36,10 @@ fn each(mut check: impl FnMut(SceneKind, u64, &Scene)) {
         for seed in SEEDS {
             check(kind, seed, &load(kind, seed));
         }
+    }
+    // Rooms with other numbers of tables; the seed changes nothing there.
+    for tables in [0, 1, 7, MOST_TABLES] {
+        check(SceneKind::Rooms, 1, &read(SceneKind::Rooms, 1, make_rooms(tables, 1)));
     }
 }
 

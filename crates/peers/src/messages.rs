@@ -1,0 +1,137 @@
+//! The rungs of our ladder of networks beside SimGrid: the same exchange of messages on the same mesh.
+
+use std::fmt::Write;
+
+use multicomputer::NetworkModel;
+use serde::Serialize;
+
+use crate::cpu::{Spread, rounded, timed};
+use crate::exchange::{BYTES, COLUMNS, ROWS, exchange, neighbours, paragon, rungs};
+use crate::peer::{Peer, Program, Recipe};
+
+/// SimGrid's harness.
+pub const SIMGRID: Recipe = Recipe {
+    name: "simgrid",
+    source: include_str!("../cpp/simgrid.cpp"),
+    library: "simgrid",
+    packages: "g++ libsimgrid-dev",
+};
+
+/// Rounds of the exchange.
+const ROUNDS: u64 = 1_000;
+
+/// SimGrid's models of a network that know links; the first is its default.
+const MODELS: [&str; 2] = ["LV08", "CM02"];
+
+/// What one network does with the exchange.
+#[derive(Serialize)]
+pub struct Row {
+    /// Whose network, and which.
+    pub network: String,
+    /// Messages of the exchange.
+    pub messages: u64,
+    /// Virtual seconds that it takes.
+    pub virtual_seconds: f64,
+    /// Messages a second of one thread: the median of the rounds.
+    pub messages_per_second: f64,
+    /// The least.
+    pub least: f64,
+    /// The greatest.
+    pub greatest: f64,
+    /// The median over that of SimGrid's default model.
+    pub this_over_simgrid: f64,
+}
+
+/// Messages, virtual seconds; processor seconds.
+type Measured = (u64, f64, f64);
+
+/// Measure all networks: after a round that does not count, `rounds` in which each runs the exchange
+/// once.
+///
+/// # Errors
+/// What is wrong with SimGrid's harness.
+pub fn measure(simgrid: &Program, rounds: u16) -> Result<Vec<Row>, String> {
+    let rungs = rungs();
+    let mut version = String::new();
+    let mut measured: Vec<Vec<Measured>> = vec![Vec::new(); rungs.len() + MODELS.len()];
+    for round in 0..=rounds {
+        for (network, measured) in measured.iter_mut().enumerate() {
+            let figures = match rungs.get(network) {
+                Some((_, model)) => ours(model),
+                None => theirs(simgrid, MODELS[network - rungs.len()], &mut version)?,
+            };
+            if round > 0 {
+                measured.push(figures);
+            }
+        }
+    }
+    let names = rungs.iter().map(|(name, _)| format!("Virtwall, {name}"));
+    let names = names.chain(MODELS.map(|model| format!("SimGrid {version}, {model}")));
+    let rate = |measured: &Vec<Measured>| {
+        Spread::of(measured.iter().map(|(messages, _, cpu)| *messages as f64 / cpu).collect())
+    };
+    let default = rate(&measured[rungs.len()]).median;
+    let rows = names.zip(&measured).map(|(network, measured)| {
+        let ((messages, virtual_seconds, _), rate) = (measured[0], rate(measured));
+        Row {
+            network,
+            messages,
+            virtual_seconds,
+            messages_per_second: rate.median.round(),
+            least: rate.least.round(),
+            greatest: rate.greatest.round(),
+            this_over_simgrid: rounded(rate.median / default),
+        }
+    });
+    Ok(rows.collect())
+}
+
+fn ours(model: &NetworkModel) -> Measured {
+    let ((messages, end), seconds) = timed(|| exchange(model, ROUNDS));
+    (messages, end.as_seconds_f64(), seconds)
+}
+
+fn theirs(simgrid: &Program, model: &str, version: &mut String) -> Result<Measured, String> {
+    let model = format!("--cfg=network/model:{model}");
+    let mut peer = Peer::start(simgrid, &[&model, "--log=xbt_cfg.thresh:warning"])?;
+    peer.tell(&problem())?;
+    *version = peer.line()?;
+    let (seconds, messages, virtual_seconds) = peer.figures()?;
+    Ok((messages, virtual_seconds, seconds))
+}
+
+/// The exchange as `simgrid.cpp` reads it. SimGrid has no time of the processor for a message: the
+/// Paragon's is part of its latency there.
+fn problem() -> String {
+    let (bandwidth, latency, hop) = match paragon().network {
+        NetworkModel::LogGp(p) => {
+            let latency = p.send_overhead + p.latency + p.receive_overhead;
+            (p.bandwidth, latency.as_seconds_f64(), p.hop_time.as_seconds_f64())
+        }
+        _ => (0.0, 0.0, 0.0),
+    };
+    let mut text = format!("{COLUMNS} {ROWS} {ROUNDS} {BYTES} {bandwidth} {latency} {hop}\n");
+    for to in (0..COLUMNS * ROWS).flat_map(neighbours) {
+        writeln!(text, "{to}").expect("writing to a String does not fail");
+    }
+    text
+}
+
+/// The rows, for people.
+pub fn table(rows: &[Row]) -> String {
+    let mut text = format!(
+        "\n{} nodes, 4 neighbours, {BYTES} bytes, {ROUNDS} rounds\n\n\
+         | network | messages/s | least–greatest | messages | virtual s | this/SimGrid's default |\n\
+         |---|---:|---:|---:|---:|---:|\n",
+        COLUMNS * ROWS
+    );
+    for row in rows {
+        let Row {
+            network, messages, virtual_seconds, messages_per_second, least, greatest, ..
+        } = row;
+        let ratio = row.this_over_simgrid;
+        writeln!(text, "| {network} | {messages_per_second} | {least}–{greatest} | {messages} | {virtual_seconds:.4} | {ratio:.2} |")
+            .expect("writing to a String does not fail");
+    }
+    text
+}

@@ -1,0 +1,67 @@
+//! Where a program spends its time, as perf samples it by the clock.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::Command;
+
+use serde::Serialize;
+
+use crate::command::run;
+use crate::cpu::rounded;
+use crate::function::plain_name;
+
+/// Functions with less of the time than this many per cent are told together.
+const LEAST: f64 = 1.5;
+
+/// Samples a second.
+const FREQUENCY: &str = "5000";
+
+/// A function and its own part of the time.
+#[derive(Serialize)]
+pub struct Share {
+    /// The function, whatever processor it is compiled for.
+    pub function: String,
+    /// Per cent of the samples.
+    pub percent: f64,
+}
+
+/// Shares of the time by function, and processor seconds sampled.
+///
+/// # Errors
+/// When perf or the program does not run.
+pub fn sample(
+    virtwall: &Path,
+    arguments: &[String],
+    folder: &Path,
+) -> Result<(Vec<Share>, f64), String> {
+    let data = folder.join("perf.data");
+    // The clock is there in virtual machines too, where the processor's counters often are not.
+    let mut perf = Command::new("perf");
+    perf.args(["record", "--quiet", "-e", "cpu-clock:u", "-F", FREQUENCY, "-o"]).arg(&data);
+    run(perf.arg("--").arg(virtwall).args(arguments), "linux-perf")?;
+    let mut perf = Command::new("perf");
+    perf.args(["report", "--stdio", "--no-children", "-F", "sample,symbol", "-i"]).arg(&data);
+    let report = run(&mut perf, "linux-perf")?;
+    let mut samples: BTreeMap<String, u64> = BTreeMap::new();
+    for line in report.lines() {
+        let Some((count, function)) = line.trim().split_once("[.]") else { continue };
+        if let Ok(count) = count.trim().parse::<u64>() {
+            *samples.entry(plain_name(function.trim())).or_default() += count;
+        }
+    }
+    let all: u64 = samples.values().sum();
+    if all == 0 {
+        return Err("perf: found no sample".to_owned());
+    }
+    let mut shares: Vec<(String, f64)> = samples
+        .into_iter()
+        .map(|(function, count)| (function, 100.0 * count as f64 / all as f64))
+        .collect();
+    shares.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let small = shares.iter().position(|(_, share)| *share < LEAST).unwrap_or(shares.len());
+    let rest = shares.drain(small..).map(|(_, share)| share).sum();
+    shares.push(("all others".to_owned(), rest));
+    let share = |(function, percent)| Share { function, percent: rounded(percent) };
+    let shares = shares.into_iter().map(share).collect();
+    Ok((shares, all as f64 / FREQUENCY.parse::<f64>().unwrap_or(1.0)))
+}

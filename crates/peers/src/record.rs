@@ -1,0 +1,65 @@
+//! Everything measured and written down: figures as CSV, the host as JSON, a README of tables.
+
+use std::path::Path;
+
+use serde::Serialize;
+
+use crate::command::{cargo, run};
+use crate::host::Host;
+use crate::{messages, profile, rays, scenes};
+
+/// What the README says of how figures came about.
+const HEAD: &str = include_str!("../README-of-results.md");
+
+/// Measure all there is, and write it into a folder.
+///
+/// # Errors
+/// What is missing on this host; then nothing is written.
+pub fn record(out: &Path, rounds: u16) -> Result<(), String> {
+    let (embree, simgrid) = (rays::EMBREE.build()?, messages::SIMGRID.build()?);
+    let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
+    let profile = profile::measure(&folder)?;
+    let host = Host::here();
+    let mut casts = Vec::new();
+    for scene in scenes::scenes(&[], &folder)? {
+        casts.push(rays::measure(&embree, &scene, rounds)?);
+    }
+    let messages = messages::measure(&simgrid, rounds)?;
+    let benches = cargo_bench()?;
+
+    let mut readme = format!("{HEAD}\n## Where\n\n{}\n", host.list());
+    readme += "## Rays, beside Embree\n";
+    readme.extend(casts.iter().map(|rows| rays::table(rows)));
+    readme += "\n## Messages, beside SimGrid\n";
+    readme += &messages::table(&messages);
+    readme += "\n## Where the time goes\n";
+    readme += &profile::table(&profile);
+    let host = serde_json::to_string_pretty(&host).map_err(|error| error.to_string())? + "\n";
+    let rays: Vec<rays::Row> = casts.into_iter().flatten().collect();
+    std::fs::create_dir_all(out).map_err(|error| format!("{}: {error}", out.display()))?;
+    for (name, text) in [
+        ("README.md", readme),
+        ("host.json", host),
+        ("rays.csv", csv(&rays)?),
+        ("messages.csv", csv(&messages)?),
+        ("profile-table1.csv", csv(&profile.table1)?),
+        ("profile-office.csv", csv(&profile.office)?),
+        ("profile-kernel.csv", csv(&profile.kernel)?),
+        ("cargo-bench.txt", benches),
+    ] {
+        lab::write_file(&out.join(name), text.as_bytes()).map_err(|error| error.to_string())?;
+    }
+    Ok(())
+}
+
+fn csv(rows: &[impl Serialize]) -> Result<String, String> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    rows.iter().try_for_each(|row| writer.serialize(row)).map_err(|error| error.to_string())?;
+    let bytes = writer.into_inner().map_err(|error| error.to_string())?;
+    String::from_utf8(bytes).map_err(|error| error.to_string())
+}
+
+/// What `cargo bench` prints.
+fn cargo_bench() -> Result<String, String> {
+    run(cargo().args(["bench", "--quiet"]), "cargo")
+}
