@@ -3,6 +3,7 @@
 use serde_json::Value;
 
 use crate::figures::Figures;
+use crate::plan::Tells;
 use crate::sweep::Axis;
 
 /// The first columns, always these, in this order.
@@ -43,14 +44,18 @@ const LAST: [&str; 13] = [
 /// The columns after these, where results tell of the network.
 const OF_THE_NETWORK: [&str; 4] = ["network_used", "network_why", "busiest_link", "blocked_s"];
 
+/// The column after these, where results tell of caches.
+const OF_CACHES: [&str; 1] = ["missing_s"];
+
 /// All columns of a sweep, in order: the first ones, swept fields not among them, the last ones, and
-/// those of the network if they are asked for.
-pub fn names(axes: &[Axis], of_the_network: bool) -> Vec<String> {
+/// those that tell of more.
+pub fn names(axes: &[Axis], tells: Tells) -> Vec<String> {
     let swept = axes.iter().map(|axis| axis.place.to_string());
     let swept = swept.filter(|name| !FIRST.contains(&name.as_str()));
     let first = FIRST.iter().map(|&name| name.to_owned());
-    let network = OF_THE_NETWORK.iter().filter(|_| of_the_network);
-    let last = LAST.iter().chain(network).map(|&name| name.to_owned());
+    let network = OF_THE_NETWORK.iter().filter(|_| tells.of_the_network);
+    let caches = OF_CACHES.iter().filter(|_| tells.of_caches);
+    let last = LAST.iter().chain(network).chain(caches).map(|&name| name.to_owned());
     first.chain(swept).chain(last).collect()
 }
 
@@ -63,6 +68,7 @@ pub fn figure(figures: &Figures, column: &str) -> Option<String> {
         "network_why" => network.map_or(String::new(), |network| network.why.clone()),
         "busiest_link" => optional(network.and_then(|network| network.busiest_link), 6),
         "blocked_s" => optional(network.map(|network| network.blocked_s), 9),
+        "missing_s" => optional(figures.missing_s, 6),
         "time_s" => optional(figures.time_s, 6),
         "local_shots" => figures.local_shots.to_string(),
         "received_shots" => figures.received_shots.to_string(),

@@ -104,7 +104,10 @@ pub fn carry_out(
         On::Threads => virtwall::run_on_threads(run).map(|outcome| (outcome, None)),
     };
     let (outcome, network) = outcome.map_err(|error| error.to_string())?;
-    Ok(Figures { network, ..figures(&run.problem, &outcome, on == On::Simulation) })
+    let simulated = on == On::Simulation;
+    let caches = simulated && !machine.processor.caches.is_empty();
+    let missing_s = caches.then(|| outcome.missing().as_seconds_f64());
+    Ok(Figures { network, missing_s, ..figures(&run.problem, &outcome, simulated) })
 }
 
 /// The outcome's figures; times only if they are virtual.
@@ -136,6 +139,7 @@ fn figures(problem: &Problem, outcome: &Outcome, virtual_time: bool) -> Figures 
             Ending::TooEarly { lost } => Some(lost),
         },
         patches: problem.patches() as u64,
+        missing_s: None,
         network: None,
         work: outcome.work.counts().map(|(op, n)| (op.name().to_owned(), n)).collect(),
     }

@@ -42,11 +42,24 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Whether its results tell of the network.
-    pub fn tells_of_the_network(&self) -> bool {
+    /// What its results tell of.
+    pub fn tells(&self) -> Tells {
         let machine = |run: &Run| &self.machines[run.machine].machine;
-        self.runs.iter().any(|run| network::tells(machine(run), run.point.network))
+        let tells = |run: &Run| network::tells(machine(run), run.point.network);
+        Tells {
+            of_the_network: self.runs.iter().any(tells),
+            of_caches: self.runs.iter().any(|run| !machine(run).processor.caches.is_empty()),
+        }
     }
+}
+
+/// What columns results have besides those that they always have.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Tells {
+    /// Of the network.
+    pub of_the_network: bool,
+    /// Of the processors' caches.
+    pub of_caches: bool,
 }
 
 /// One run.

@@ -199,7 +199,7 @@ impl Planner<'_> {
 /// Refuses plots of columns that there will not be, or with names that lead elsewhere.
 fn check_plots(plan: &Plan, document: &Document) -> Result<(), Fault> {
     let plots: &[Plot] = &plan.plots;
-    let known = columns::names(&plan.axes, plan.tells_of_the_network());
+    let known = columns::names(&plan.axes, plan.tells());
     for (i, plot) in plots.iter().enumerate() {
         let place = Place::of("plots").item(i);
         let series = plot.series.as_ref();

@@ -19,7 +19,7 @@ pub struct Table {
 impl Table {
     /// The results of a plan's runs, in the plan's order.
     pub fn of(plan: &Plan, endings: &Endings) -> Table {
-        let columns = columns::names(&plan.axes, plan.tells_of_the_network());
+        let columns = columns::names(&plan.axes, plan.tells());
         let one_processor = one_processor(plan, endings);
         let row = |(run, ending): (&Run, &Option<Ending>)| {
             let view = View { plan, run, ending: ending.as_ref(), one_processor: &one_processor };

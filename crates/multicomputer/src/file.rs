@@ -77,6 +77,24 @@ pub(crate) struct ProcessorFile {
     /// Cycles of each operation that the kernels count.
     #[serde(deserialize_with = "without_repetition")]
     pub(crate) operations: BTreeMap<String, Sourced<Quantity<Cycles>>>,
+    /// Data caches, the nearest first. Without them misses cost nothing but what the cycles of the
+    /// operations hold already.
+    #[serde(default)]
+    pub(crate) caches: Vec<CacheFile>,
+}
+
+/// A data cache.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "an object that describes a cache")]
+pub(crate) struct CacheFile {
+    /// Bytes that it holds.
+    pub(crate) size: Sourced<Quantity<Bytes>>,
+    /// Bytes that a miss fetches.
+    pub(crate) line: Sourced<Quantity<Bytes>>,
+    /// Lines among which the least recently used one makes room: 1 is direct-mapped.
+    pub(crate) ways: Sourced<NonZeroU16>,
+    /// By how much a miss is slower than a hit, when the next level has the line.
+    pub(crate) miss_time: Sourced<Quantity<Time>>,
 }
 
 /// The network: which model of it tells when messages arrive, and what the models need to know.

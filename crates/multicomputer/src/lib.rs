@@ -10,6 +10,7 @@
 mod account;
 mod agenda;
 mod auto;
+mod cache;
 mod fault;
 mod file;
 mod kernels;
@@ -28,6 +29,7 @@ mod traffic;
 
 pub use account::NodeAccount;
 pub use auto::{Choice, choose};
+pub use cache::{CacheLevel, Caches};
 pub use fault::MachineFault;
 pub use file::machine_schema;
 pub use kernels::{KernelError, exchange, hot_spot, ping_pong};

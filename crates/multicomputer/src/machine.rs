@@ -2,8 +2,9 @@
 
 use thiserror::Error;
 
+use crate::cache::CacheLevel;
 use crate::fault::{MachineFault, read};
-use crate::file::{LinksFile, LogGpFile, MachineFile, NetworkFile, ProcessorFile};
+use crate::file::{CacheFile, LinksFile, LogGpFile, MachineFile, NetworkFile, ProcessorFile};
 use crate::network::{LinkParameters, LogGpParameters, Network, NetworkParameters, Rung};
 use crate::processor::Processor;
 use crate::topology::{Place, Shape, Topology};
@@ -12,6 +13,10 @@ use crate::topology::{Place, Shape, Topology};
 const MOST_PLACES: u32 = 65_536;
 /// Longest flit, bytes: as long as a link's bandwidth can be told from a message's.
 const LONGEST_FLIT: f64 = 1e9;
+
+/// Largest line and cache, bytes: beyond them a file can only be a slip.
+const LONGEST_LINE: f64 = 65_536.0;
+const LARGEST_CACHE: f64 = 1e9;
 
 /// A distributed-memory machine.
 #[derive(Clone, Debug)]
@@ -136,7 +141,7 @@ impl Machine {
 /// The machine, if its nodes have room on its network and that is fully described.
 fn validate(file: MachineFile) -> Result<Machine, MachineFault> {
     let (shape, hop_time) = shape(&file)?;
-    let (title, processor) = (file.title, processor(file.processor));
+    let (title, processor) = (file.title, processor(file.processor)?);
     let (rung, parameters) = network(&file.network, hop_time)?;
     Ok(Machine {
         title,
@@ -242,9 +247,37 @@ fn links(file: &LinksFile, software: &LogGpParameters) -> Result<LinkParameters,
     Ok(links)
 }
 
-fn processor(file: ProcessorFile) -> Processor {
+fn processor(file: ProcessorFile) -> Result<Processor, MachineFault> {
     let cycles = file.operations.into_iter().map(|(name, cycles)| (name, cycles.value.si));
-    Processor { clock: file.clock.value.si, scale: file.scale.value.0, cycles: cycles.collect() }
+    Ok(Processor {
+        clock: file.clock.value.si,
+        scale: file.scale.value.0,
+        cycles: cycles.collect(),
+        caches: caches(&file.caches)?,
+    })
+}
+
+/// Caches of whole lines in whole sets, no line shorter than one of the level before.
+fn caches(files: &[CacheFile]) -> Result<Vec<CacheLevel>, MachineFault> {
+    let mut levels: Vec<CacheLevel> = Vec::new();
+    for (i, file) in files.iter().enumerate() {
+        let [size, line] = [&file.size, &file.line].map(|bytes| bytes.value.si);
+        let ways = u64::from(file.ways.value.get());
+        let place = |field: &str| format!("processor.caches[{i}].{field}.value");
+        let least = levels.last().map_or(1, |level| level.line);
+        if !(least as f64..=LONGEST_LINE).contains(&line) || line % least as f64 != 0.0 {
+            let expected = format!("found {line} B; expected a multiple of {least} B");
+            return refuse(&place("line"), format!("{expected}, at most {LONGEST_LINE} B"));
+        }
+        let set = line * ways as f64;
+        if !(set..=LARGEST_CACHE).contains(&size) || size % set != 0.0 {
+            let expected = format!("found {size} B; expected a multiple of {set} B, {ways} lines");
+            return refuse(&place("size"), format!("{expected}, at most {LARGEST_CACHE} B"));
+        }
+        let (size, line) = (size as u64, line as u64);
+        levels.push(CacheLevel { size, line, ways, miss_time: file.miss_time.value.si });
+    }
+    Ok(levels)
 }
 
 fn loggp(file: &LogGpFile, hop_time: desim::Duration) -> LogGpParameters {

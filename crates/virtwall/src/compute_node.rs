@@ -135,6 +135,7 @@ impl ComputeNode {
             (shot, work)
         };
         let shot = process.compute(kernel).await;
+        process.fetch(source).await;
         on_shot();
         self.tally.work += shot.work;
         self.region.receive(source, &shot);

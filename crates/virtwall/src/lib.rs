@@ -18,6 +18,7 @@ mod rules;
 mod run;
 mod service_node;
 mod simulation;
+mod storage;
 mod threads;
 
 pub use compute_node::{ComputeNode, compute_node};
@@ -33,4 +34,5 @@ pub use rules::{Rules, Selection, Ties};
 pub use run::{Run, RunError};
 pub use service_node::{Collection, service_node};
 pub use simulation::{simulate, simulate_over};
+pub use storage::{Layout, Storage};
 pub use threads::run_on_threads;

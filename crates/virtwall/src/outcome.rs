@@ -73,6 +73,8 @@ pub enum Ending {
 pub struct NodeReport {
     /// Time in kernels.
     pub compute: Duration,
+    /// The part of it spent waiting for what caches missed.
+    pub missing: Duration,
     /// Time in sending and receiving.
     pub overhead: Duration,
     /// Time spent waiting until the node knew of the end.
@@ -121,6 +123,11 @@ impl Outcome {
             nodes: reports,
             radiosity,
         }
+    }
+
+    /// Time that all compute nodes spent waiting for what caches missed.
+    pub fn missing(&self) -> Duration {
+        self.nodes.iter().map(|node| node.missing).sum()
     }
 
     /// Time in kernels as a fraction of all compute nodes' time.

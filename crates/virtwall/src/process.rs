@@ -4,6 +4,8 @@ use desim::Time;
 use multicomputer::Rank;
 use radiosity::Work;
 
+use crate::message::Parcel;
+
 /// A process on a node, simulated or real. Messages are bytes: what is not encoded does not travel.
 #[expect(async_fn_in_trait, reason = "a process stays on its own thread")]
 pub trait Process {
@@ -12,6 +14,9 @@ pub trait Process {
 
     /// Run a kernel here; the work that it counted is charged to this node.
     async fn compute<T>(&self, job: impl FnOnce() -> (T, Work)) -> T;
+
+    /// Wait for what a shot, just computed, and the search after it find missing in the caches.
+    async fn fetch(&self, _source: &Parcel) {}
 
     /// Send a message; costs this node its overhead, then travels.
     async fn send(&self, to: Rank, message: Vec<u8>);

@@ -1,6 +1,6 @@
 //! The programs on a simulated machine.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use desim::{Duration, Simulation, Time};
@@ -8,10 +8,12 @@ use multicomputer::{Machine, Multicomputer, Network, Node, Rank};
 use radiosity::{Operation, Work};
 
 use crate::compute_node::compute_node;
+use crate::message::Parcel;
 use crate::outcome::{NodeReport, Outcome};
 use crate::process::Process;
 use crate::run::{Run, RunError};
 use crate::service_node::service_node;
+use crate::storage::{Layout, Storage};
 
 /// What each operation costs a processor, seconds.
 struct Prices([f64; Operation::ALL.len()]);
@@ -36,6 +38,9 @@ impl Prices {
 struct SimulatedProcess {
     node: Node<Vec<u8>>,
     prices: Rc<Prices>,
+    /// Where the processor has caches.
+    storage: Option<RefCell<Storage>>,
+    missing: Cell<Duration>,
 }
 
 impl Process for SimulatedProcess {
@@ -47,6 +52,13 @@ impl Process for SimulatedProcess {
         let (result, work) = job();
         self.node.compute(self.prices.time(&work)).await;
         result
+    }
+
+    async fn fetch(&self, source: &Parcel) {
+        let Some(storage) = &self.storage else { return };
+        let span = Duration::from_seconds_f64(storage.borrow_mut().shoot(source));
+        self.missing.set(self.missing.get() + span);
+        self.node.compute(span).await;
     }
 
     async fn send(&self, to: Rank, message: Vec<u8>) {
@@ -86,15 +98,22 @@ pub fn simulate_over(
     let simulation = Simulation::new();
     let handle = simulation.handle();
     let multicomputer = Multicomputer::with_network(&handle, machine, run.processors, network)?;
-    let process =
-        |rank| SimulatedProcess { node: multicomputer.node(rank), prices: Rc::clone(&prices) };
+    let caches = &machine.processor.caches;
+    let storage = || Storage::new(&run.problem, Layout::PLAIN_C, caches);
+    let process = |rank| SimulatedProcess {
+        node: multicomputer.node(rank),
+        prices: Rc::clone(&prices),
+        storage: (!caches.is_empty()).then(|| RefCell::new(storage())),
+        missing: Cell::default(),
+    };
     let finished = Rc::new(RefCell::new(Vec::new()));
     for (rank, node) in nodes.into_iter().enumerate() {
         let (process, finished) = (process(rank), Rc::clone(&finished));
         handle.spawn(format!("compute node {rank}"), async move {
             let node = compute_node(&process, node).await;
             process.node.finish();
-            finished.borrow_mut().push((process.rank(), process.now(), node));
+            let missing = process.missing.get();
+            finished.borrow_mut().push((process.rank(), process.now(), node, missing));
         });
     }
     let service = process(run.processors);
@@ -102,11 +121,13 @@ pub fn simulate_over(
     simulation.run()?;
     let mut finished = finished.take();
     finished.sort_unstable_by_key(|(rank, ..)| *rank);
-    let time = finished.iter().map(|(_, time, _)| *time).max().unwrap_or(Time::ZERO);
-    let nodes: Vec<_> = finished.into_iter().map(|(_, _, node)| node).collect();
+    let time = finished.iter().map(|(_, time, ..)| *time).max().unwrap_or(Time::ZERO);
+    let (nodes, missing): (Vec<_>, Vec<_>) =
+        finished.into_iter().map(|(_, _, node, missing)| (node, missing)).unzip();
     let reports =
-        multicomputer.accounts().into_iter().take(nodes.len()).map(|account| NodeReport {
+        multicomputer.accounts().into_iter().zip(missing).map(|(account, missing)| NodeReport {
             compute: account.compute,
+            missing,
             overhead: account.send_overhead + account.receive_overhead,
             idle: account.idle,
             ..NodeReport::default()
