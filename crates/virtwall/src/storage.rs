@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use multicomputer::{CacheLevel, Caches};
-use radiosity::{Block, Record, trace};
+use radiosity::{Block, Record, Side, trace};
 
 use crate::message::Parcel;
 use crate::problem::Problem;
@@ -13,6 +13,8 @@ use crate::problem::Problem;
 pub struct Layout {
     /// A direction of the hemisphere.
     pub direction: u64,
+    /// The weight of a pixel; 0 where all have the same.
+    pub weight: u64,
     /// Where a cell's list begins; the next one's beginning is its end.
     pub cell: u64,
     /// A polygon in a cell's list.
@@ -41,6 +43,7 @@ impl Layout {
     /// records: a plane on 2 lines of 32 B, 2.5 edges of 24 B, a patch on 3 lines.
     pub const PLAIN_C: Layout = Layout {
         direction: 24,
+        weight: 0,
         cell: 4,
         entry: 4,
         polygon: [64, 48],
@@ -59,6 +62,10 @@ pub struct Storage {
     layout: Layout,
     caches: Caches,
     directions: u64,
+    weights: u64,
+    masks: u64,
+    mask_bytes: u64,
+    masks_used: u64,
     form_factors: u64,
     /// Of each cell, by its place in the grid: its address and that of its list.
     cells: Vec<[u64; 2]>,
@@ -93,11 +100,16 @@ impl Storage {
         let whole = problem.space.grid.whole();
         let environments = &problem.environments;
         let most_patches = environments.iter().map(|e| e.patches.len()).max().unwrap_or(0);
+        let mask_bytes = u64::from(problem.hemisphere.pixels()).div_ceil(64) * 8;
         let mut room = Room(0);
         let mut storage = Storage {
             problem: Arc::clone(problem),
             caches: Caches::new(levels, layout.hot),
             directions: room.take(problem.hemisphere.directions.len(), layout.direction),
+            weights: room.take(problem.hemisphere.directions.len(), layout.weight),
+            masks: room.take(environments.len(), mask_bytes),
+            mask_bytes,
+            masks_used: 0,
             form_factors: room.take(most_patches, layout.form_factor),
             cells: vec![[0; 2]; whole.cells().count()],
             polygons: Vec::new(),
@@ -149,53 +161,73 @@ impl Storage {
     /// one afterwards.
     pub fn shoot(&mut self, parcel: &Parcel) -> f64 {
         let before = self.caches.time();
+        let problem = Arc::clone(&self.problem);
         let e = parcel.environment as usize;
-        let Storage { problem, layout, caches, cells, .. } = self;
-        let polygons = &self.polygons[if layout.by_environment { e } else { 0 }];
-        let at = |[whole, _]: [u64; 2], polygon: u32| {
-            u64::from(polygons.numbers[polygon as usize]) * whole
-        };
-        let [slots, patches] = self.patches[e];
         let environment = &problem.environments[e];
-        let Parcel { source, mask, .. } = parcel;
-        trace(
-            &problem.space,
-            environment,
-            &problem.hemisphere,
-            source,
-            mask,
-            |record| match record {
-                Record::Direction(pixel) => caches
-                    .touch(self.directions + u64::from(pixel) * layout.direction, layout.direction),
-                Record::Cell { place, polygons } => {
-                    let [cell, list] = cells[place as usize];
-                    caches.touch(cell, 2 * layout.cell);
-                    if polygons > 0 {
-                        caches.touch(list, u64::from(polygons) * layout.entry);
-                    }
-                }
-                Record::Plane(polygon) => {
-                    caches.touch(polygons.planes + at(layout.polygon, polygon), layout.polygon[1]);
-                }
-                Record::Edges(polygon) => {
-                    caches.touch(polygons.edges + at(layout.edges, polygon), layout.edges[1]);
-                }
-                Record::Hit(patch) => {
-                    let patch = u64::from(patch);
-                    caches.touch(slots + patch * layout.slot, layout.slot);
-                    caches
-                        .touch(self.form_factors + patch * layout.form_factor, layout.form_factor);
-                }
-            },
-        );
-        self.pass_over_patches(e, patches);
+        let mask = self.next_mask();
+        let Parcel { source, mask: pixels, .. } = parcel;
+        trace(&problem.space, environment, &problem.hemisphere, source, pixels, |record| {
+            self.touch(e, mask, record);
+        });
+        for _ in Side::ALL.iter().filter(|&&side| environment.has_neighbour(side)) {
+            let copy = self.next_mask();
+            self.caches.touch(mask, self.mask_bytes);
+            self.caches.touch(copy, self.mask_bytes);
+        }
+        self.pass_over_patches(e);
         self.caches.time() - before
     }
 
+    /// Masks take each other's places, as many in turn as there are environments to wait for.
+    fn next_mask(&mut self) -> u64 {
+        let place = self.masks + self.masks_used % self.patches.len() as u64 * self.mask_bytes;
+        self.masks_used += 1;
+        place
+    }
+
+    /// Touch a record of an environment.
+    #[inline]
+    fn touch(&mut self, environment: usize, mask: u64, record: Record) {
+        let Storage { layout, caches, .. } = self;
+        let polygons = &self.polygons[if layout.by_environment { environment } else { 0 }];
+        let number = |polygon: u32| u64::from(polygons.numbers[polygon as usize]);
+        match record {
+            Record::Direction(pixel) => {
+                let pixel = u64::from(pixel);
+                caches.touch(mask + pixel / 64 * 8, 8);
+                caches.touch(self.directions + pixel * layout.direction, layout.direction);
+                if layout.weight > 0 {
+                    caches.touch(self.weights + pixel * layout.weight, layout.weight);
+                }
+            }
+            Record::Cell { place, polygons } => {
+                let [cell, list] = self.cells[place as usize];
+                caches.touch(cell, 2 * layout.cell);
+                if polygons > 0 {
+                    caches.touch(list, u64::from(polygons) * layout.entry);
+                }
+            }
+            Record::Plane(polygon) => {
+                let [whole, read] = layout.polygon;
+                caches.touch(polygons.planes + number(polygon) * whole, read);
+            }
+            Record::Edges(polygon) => {
+                let [whole, read] = layout.edges;
+                caches.touch(polygons.edges + number(polygon) * whole, read);
+            }
+            Record::Hit(patch) => {
+                let (patch, slots) = (u64::from(patch), self.patches[environment][0]);
+                caches.touch(slots + patch * layout.slot, layout.slot);
+                caches.touch(self.form_factors + patch * layout.form_factor, layout.form_factor);
+            }
+        }
+    }
+
     /// Update all patches of an environment, each with its form factor, then look at all.
-    fn pass_over_patches(&mut self, environment: usize, patches: u64) {
+    fn pass_over_patches(&mut self, environment: usize) {
         let Layout { patch: [whole, scanned], form_factor, .. } = self.layout;
         let count = self.problem.environments[environment].patches.len() as u64;
+        let patches = self.patches[environment][1];
         for patch in 0..count {
             self.caches.touch(self.form_factors + patch * form_factor, form_factor);
             self.caches.touch(patches + patch * whole, whole);
