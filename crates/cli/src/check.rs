@@ -9,7 +9,7 @@ use crate::exit::Exit;
 /// What to validate.
 #[derive(Args)]
 pub struct Arguments {
-    /// Experiment, machine, scene or OBJ files
+    /// Experiment, machine, trace, scene or OBJ files
     #[arg(required = true)]
     files: Vec<PathBuf>,
 }

@@ -4,7 +4,9 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::Args;
-use multicomputer::{Course, Rung, Trace, replay};
+use desim::Time;
+use lab::OpenMachine;
+use multicomputer::{ChannelUse, Course, Machine, Network, Rung, Trace, replay};
 
 use crate::exit::Exit;
 
@@ -22,17 +24,25 @@ pub struct Arguments {
     /// Write the table to this CSV file, not to standard output
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
+    /// Write what each channel of the network did to this CSV file
+    #[arg(long, value_name = "FILE")]
+    channels: Option<PathBuf>,
 }
 
 /// Sends the traffic; returns the course of every message as CSV.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
-    let machine = lab::open_machine(&arguments.machine)?;
+    let machine = OpenMachine::load(&arguments.machine)?.machine;
     let file = arguments.trace.display().to_string();
     let text = lab::read_text(&arguments.trace)?;
     let trace = Trace::from_json(&text, &file, machine.nodes()).map_err(Exit::bad_input)?;
     let rung = arguments.network.or(machine.rung).unwrap_or(Rung::LogGp);
     let mut network = machine.network_on(rung).map_err(Exit::bad_input)?;
     let courses = replay(&trace, network.as_mut(), machine.topology()).map_err(Exit::failure)?;
+    if let Some(path) = &arguments.channels {
+        let end = courses.iter().map(|course| course.arrived).max().unwrap_or_default();
+        let table = channels(&machine, network.as_ref(), end);
+        lab::write_file(path, table.as_bytes()).map_err(Exit::bad_input)?;
+    }
     let table = table(&trace, &courses);
     let Some(path) = &arguments.out else { return Ok(table) };
     lab::write_file(path, table.as_bytes()).map_err(Exit::bad_input)?;
@@ -48,6 +58,18 @@ fn table(trace: &Trace, courses: &[Course]) -> String {
         let by = by.collect::<Vec<_>>().join(" ");
         let (name, from, to, bytes) = (&item.name, item.from, item.to, item.bytes);
         let _ = writeln!(table, "{name},{from},{to},{bytes},{sent},{arrived},{blocked},{by}");
+    }
+    table
+}
+
+/// What each channel did until `end`; nothing on networks that do not know channels.
+fn channels(machine: &Machine, network: &dyn Network, end: Time) -> String {
+    let mut table = "channel,messages,carrying_s,held_s,utilisation\n".to_owned();
+    for ChannelUse { channel, messages, carrying, held } in network.channel_use() {
+        let name = channel.describe(machine.topology());
+        let utilisation = carrying.as_seconds_f64() / end.as_seconds_f64().max(1e-12);
+        let (carrying, held) = (seconds(carrying.0), seconds(held.0));
+        let _ = writeln!(table, "{name},{messages},{carrying},{held},{utilisation:.6}");
     }
     table
 }

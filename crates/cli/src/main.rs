@@ -5,7 +5,10 @@
 mod bench_rays;
 mod check;
 mod exit;
+mod machine_bench;
+mod machine_compare;
 mod machine_replay;
+mod machine_show;
 mod plot;
 mod progress;
 mod run;
@@ -33,7 +36,7 @@ enum Command {
     Run(run::Arguments),
     /// Draw the plots and the report of saved results anew.
     Plot(plot::Arguments),
-    /// Validate experiments, machines, scenes and OBJ files, and say what each is.
+    /// Validate experiments, machines, traces, scenes and OBJ files, and say what each is.
     Check(check::Arguments),
     /// Make a scene of the paper, or look at any scene.
     #[command(subcommand)]
@@ -56,6 +59,12 @@ enum BenchCommand {
 
 #[derive(Subcommand)]
 enum MachineCommand {
+    /// Print a machine with the provenance of its numbers, and draw it.
+    Show(machine_show::Arguments),
+    /// Measure a machine's network: ping-pong, exchange and hot spot, against message size.
+    Bench(machine_bench::Arguments),
+    /// Hold the wormhole model of a machine's network against flits, under synthetic traffic.
+    Compare(machine_compare::Arguments),
     /// Send traffic of your own over a machine's network, and print the course of every message.
     Replay(machine_replay::Arguments),
 }
@@ -75,6 +84,9 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Scene(SceneCommand::Make(arguments)) => scene_make::run(&arguments),
         Command::Scene(SceneCommand::Show(arguments)) => scene_show::run(&arguments),
+        Command::Machine(MachineCommand::Show(arguments)) => machine_show::run(&arguments),
+        Command::Machine(MachineCommand::Bench(arguments)) => machine_bench::run(&arguments),
+        Command::Machine(MachineCommand::Compare(arguments)) => machine_compare::run(&arguments),
         Command::Machine(MachineCommand::Replay(arguments)) => machine_replay::run(&arguments),
         Command::Bench(BenchCommand::Rays(arguments)) => bench_rays::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),

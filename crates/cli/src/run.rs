@@ -1,10 +1,11 @@
 //! `virtwall run`: an experiment, from its file to its results.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
-use lab::{HostClock, On, Options, Plan, Results};
+use lab::{Endings, HostClock, On, Options, Plan, Results, ShotFiles};
+use multicomputer::quantity::{Dimension, QuantityError, parse};
 
 use crate::exit::Exit;
 use crate::progress::Progress;
@@ -18,7 +19,8 @@ pub struct Arguments {
     /// Folder for the results [default: results/<name of the experiment file>]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Runs side by side [default: one for each of this host's processors]
+    /// Threads: runs side by side, and within a run when none waits [default: one for each of this
+    /// host's processors]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
     /// Put a value in the place of the file's, such as stop.patch_threshold="5 %" or
@@ -35,6 +37,19 @@ pub struct Arguments {
     /// Forget the runs that an interrupted sweep has finished
     #[arg(long)]
     fresh: bool,
+    /// Host memory for shots that are kept from one run for the next, such as 4GB or 500MiB
+    /// [default: half of what is free]
+    #[arg(long, value_name = "SIZE", value_parser = size)]
+    memory: Option<usize>,
+    /// Keep shots in this folder as well: those that memory has no room for, and all for the next
+    /// time. It can be emptied whenever nothing runs
+    #[arg(long, value_name = "DIR")]
+    keep_shots: Option<PathBuf>,
+}
+
+/// A number of bytes, with its unit.
+fn size(text: &str) -> Result<usize, QuantityError> {
+    parse(text, Dimension::Bytes).map(|bytes| bytes as usize)
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -54,6 +69,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let default = || PathBuf::from("results").join(&plan.name);
     let out = arguments.out.clone().unwrap_or_else(default);
     let place = out.display();
+    let shot_files = arguments.keep_shots.as_deref().map(open_shot_files).transpose()?;
     std::fs::create_dir_all(&out)
         .map_err(|error| Exit::bad_input(format!("{place}: no folder for results: {error}")))?;
 
@@ -62,19 +78,25 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         OnArgument::Simulation => On::Simulation,
         OnArgument::Threads => On::Threads,
     };
-    let options = Options { threads, fresh: arguments.fresh, on };
+    let memory = arguments.memory.unwrap_or_else(lab::half_of_free_memory);
+    let options = Options { threads, fresh: arguments.fresh, on, memory, shot_files };
     let progress = Arc::new(Progress::new(Arc::clone(&plan)));
     let watch = {
         let progress = Arc::clone(&progress);
         Arc::new(move |event| progress.note(event))
     };
-    let endings = lab::carry_out(&plan, &out, options, watch).map_err(Exit::failure)?;
+    let endings = lab::carry_out(&plan, &out, &options, watch).map_err(Exit::failure)?;
     progress.end();
 
-    let results = Results::of(&plan, &endings, options).map_err(Exit::failure)?;
-    results.write(&out).map_err(Exit::failure)?;
+    let results = Results::of(&plan, &endings, on).map_err(Exit::failure)?;
     lab::write_host_times(&out, &endings, clock.seconds(), threads).map_err(Exit::failure)?;
-    let output = format!("{}\n{}\nResults are in {place}.\n", plan.title, results.text());
+    results.write(&out).map_err(Exit::failure)?;
+    let networks = lab::networks_text(&plan, &endings);
+    let mut output = format!("{}\n{}\n{networks}{}", plan.title, results.text(), shots(&endings));
+    if let Some(trouble) = options.shot_files.and_then(|files| files.trouble()) {
+        output += &format!("Shots could not be kept in {trouble}.\n");
+    }
+    output += &format!("Results are in {place}.\n");
     match results.failures() {
         0 => Ok(output),
         failures => {
@@ -82,6 +104,24 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
             Err(Exit { code: 1, output, message })
         }
     }
+}
+
+fn open_shot_files(folder: &Path) -> Result<ShotFiles, Exit> {
+    ShotFiles::open(folder).map_err(|error| {
+        Exit::bad_input(format!("{}: no folder for shots: {error}", folder.display()))
+    })
+}
+
+/// How often a kept shot served, in a line.
+fn shots(endings: &Endings) -> String {
+    let (shots, megabytes) = (endings.shots, endings.shot_bytes as f64 / 1e6);
+    format!(
+        "Shots: {} asked for, {} found in memory ({megabytes:.1} MB at most), {} on disk, {} cast.\n",
+        shots.asked(),
+        shots.in_memory,
+        shots.archived,
+        shots.cast,
+    )
 }
 
 fn host_processors() -> usize {

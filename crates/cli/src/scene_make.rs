@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use scenemaker::{MOST_TABLES, SceneKind};
+use scenemaker::{MOST_TABLES, SceneKind, SceneText};
 
 use crate::exit::Exit;
 
@@ -12,6 +12,9 @@ use crate::exit::Exit;
 pub struct Arguments {
     /// office, rooms or building
     kind: SceneKind,
+    /// Floors of the building, instead of its five; its files are then called building-N
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(2..=1000))]
+    floors: Option<u16>,
     /// Seed of what is drawn at random
     #[arg(long, value_name = "N", default_value_t = 1996)]
     seed: u64,
@@ -25,21 +28,31 @@ pub struct Arguments {
 
 /// Writes the files; returns their names.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
-    let text = match (arguments.kind, arguments.tables) {
-        (kind, None) => scenemaker::make(kind, arguments.seed),
-        (SceneKind::Rooms, Some(tables)) => scenemaker::make_rooms(tables, arguments.seed),
-        (kind, Some(_)) => {
-            return Err(Exit::bad_input(format!("--tables: found {kind}; expected rooms")));
-        }
-    };
     let out = &arguments.out;
     std::fs::create_dir_all(out)
         .map_err(|error| Exit::bad_input(format!("{}: no folder: {error}", out.display())))?;
+    let text = text(arguments)?;
     let mut output = String::new();
     for (ending, contents) in [("obj", &text.obj), ("mtl", &text.mtl)] {
-        let path = out.join(format!("{}.{ending}", arguments.kind.name()));
+        let path = out.join(format!("{}.{ending}", text.name));
         lab::write_file(&path, contents.as_bytes()).map_err(Exit::failure)?;
         output += &format!("{}\n", path.display());
     }
     Ok(output)
+}
+
+fn text(arguments: &Arguments) -> Result<SceneText, Exit> {
+    let seed = arguments.seed;
+    match (arguments.kind, arguments.floors, arguments.tables) {
+        (kind, None, None) => Ok(scenemaker::make(kind, seed)),
+        (SceneKind::Rooms, None, Some(tables)) => Ok(scenemaker::make_rooms(tables, seed)),
+        (SceneKind::Building, Some(floors), None) => scenemaker::make_building(floors, seed)
+            .ok_or_else(|| Exit::bad_input(format!("{floors} floors; expected 2 to 1000"))),
+        (kind, Some(_), _) => {
+            Err(Exit::bad_input(format!("--floors: found {kind}; expected building")))
+        }
+        (kind, _, Some(_)) => {
+            Err(Exit::bad_input(format!("--tables: found {kind}; expected rooms")))
+        }
+    }
 }

@@ -19,6 +19,8 @@ enum Kind {
     Machine,
     /// Scene descriptions
     Scene,
+    /// Traces of messages, to be replayed
+    Trace,
 }
 
 /// Returns the schema.
@@ -27,6 +29,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         Kind::Experiment => lab::experiment_schema(),
         Kind::Machine => multicomputer::machine_schema(),
         Kind::Scene => lab::scene_schema(),
+        Kind::Trace => multicomputer::trace_schema(),
     };
     let text = serde_json::to_string_pretty(&schema).map_err(Exit::failure)?;
     Ok(text + "\n")

@@ -85,6 +85,10 @@ fn bad_input_exits_with_2_and_leaves_nothing() {
             "plots=[{\"x\":\"seed\",\"y\":\"seed\",\"file\":\"../p\"}]",
         ],
         &["run", "experiments/x.json", "--threads", "0"],
+        &["run", "experiments/x.json", "--memory", "4"],
+        &["run", "experiments/x.json", "--memory", "4 m"],
+        &["run", "experiments/x.json", "--memory=-1GB"],
+        &["run", "experiments/x.json", "--keep-shots", "experiments/x.json"],
         &["run", "experiments/x.json", "--out", "experiments/x.json"],
         &["run", "experiments"],
         &["plot", "results/x"],
@@ -115,6 +119,29 @@ fn threads_and_a_second_run_change_no_byte() {
     let one = results("a", "1");
     assert_eq!(one, results("a", "1"));
     assert_eq!(one, results("b", "2"));
+}
+
+/// Hit rates are told, on the console and in the file of what depends on the host.
+#[test]
+fn kept_shots_are_counted() {
+    let project = Project::new(SWEEP);
+    let arguments = ["run", "experiments/x.json", "--keep-shots", "shots", "--memory", "0B"];
+    let shots = || {
+        let (code, stdout, stderr) = output(&project, &arguments);
+        assert_eq!((code, stderr.as_str()), (0, ""));
+        let line = stdout.lines().find(|line| line.starts_with("Shots: ")).unwrap().to_owned();
+        let times = fs::read_to_string(project.path("results/x/host-times.json")).unwrap();
+        let times: serde_json::Value = serde_json::from_str(&times).unwrap();
+        let names = ["asked", "found_in_memory", "found_on_disk", "cast", "most_bytes_in_memory"];
+        (line, names.map(|name| times["shots"][name].as_u64().unwrap()))
+    };
+    let (line, [asked, in_memory, on_disk, cast, bytes]) = shots();
+    assert_eq!((in_memory, bytes, on_disk + cast), (0, 0, asked));
+    let expected = format!(
+        "Shots: {asked} asked for, 0 found in memory (0.0 MB at most), {on_disk} on disk, {cast} cast."
+    );
+    assert_eq!(line, expected);
+    assert_eq!(shots().1, [asked, 0, asked, 0, 0]);
 }
 
 #[test]

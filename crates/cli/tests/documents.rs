@@ -144,3 +144,26 @@ fn the_readme_tells_the_results() {
     let summary = format!("is **{:.3}**", (logarithms / 21.0_f64).exp());
     assert!(readme.contains(&summary), "{summary}");
 }
+
+/// The table of the scale experiment is the one in results/scale.
+#[test]
+fn the_readme_tells_what_scales() {
+    let readme = fs::read_to_string(crates().join("../README.md")).unwrap();
+    let csv = fs::read_to_string(crates().join("../results/scale/runs.csv")).unwrap();
+    let mut lines = csv.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let names = lines.next().unwrap();
+    let runs: Vec<_> = lines.collect();
+    let cell = |run: &[&str], name| run[names.iter().position(|n| *n == name).unwrap()].to_owned();
+    let told = table(&readme, "floors");
+    assert_eq!(told.len() * 3, runs.len());
+    for (row, runs) in told.iter().zip(runs.chunks(3)) {
+        let scene =
+            if row[0] == "5" { "building".to_owned() } else { format!("building-{}", row[0]) };
+        let counts = ["patches", "local_shots"].map(|name| cell(&runs[0], name));
+        assert_eq!(runs[0][0], scene);
+        assert_eq!([&row[1], &row[2]].map(|count| count.replace(',', "")), counts);
+        let times = runs.iter().map(|run| cell(run, "time_s").parse::<f64>().unwrap());
+        let times: Vec<String> = times.map(|time| format!("{time:.1}")).collect();
+        assert_eq!(row[3..6], times, "{scene}");
+    }
+}

@@ -6,8 +6,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use lab::OpenScene;
-use radiosity::{Hemisphere, HemisphereKind, LocalEnvironment, PatchSize, Scene, Space, solve};
-use scenemaker::{SceneKind, make};
+use radiosity::{
+    Hemisphere, HemisphereKind, LocalEnvironment, PatchSize, Scene, Space, load_obj, solve,
+};
+use scenemaker::{SceneKind, SceneText, make, make_building};
 
 fn scenes() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes")
@@ -42,6 +44,20 @@ fn committed_scenes_are_the_generators() {
             );
         }
     }
+}
+
+/// A scene that is made when it is read is the one that `scene make` writes.
+#[test]
+fn a_made_scene_is_the_generators() {
+    let SceneText { name, obj, mtl } = make_building(10, 1996).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join(format!("{name}.mtl")), mtl).unwrap();
+    let path = folder.path().join(format!("{name}.obj"));
+    fs::write(&path, obj).unwrap();
+    let (written, _) = load_obj(&path).unwrap();
+    let made = open("building-10").scene;
+    assert!(made.vertices == written.vertices && made.polygons == written.polygons);
+    assert!(made.materials == written.materials);
 }
 
 #[test]

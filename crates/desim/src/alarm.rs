@@ -5,6 +5,7 @@ use std::rc::Rc;
 
 use crate::event::Event;
 use crate::handle::Handle;
+use crate::repeated::Repeated;
 use crate::state::State;
 use crate::time::Time;
 
@@ -13,42 +14,23 @@ use crate::time::Time;
 #[derive(Clone)]
 pub struct Alarm {
     state: Rc<State>,
-    alarm: Rc<AlarmState>,
-}
-
-pub(crate) struct AlarmState {
-    action: Box<dyn Fn()>,
-    /// When it will go off; an event for another time is stale.
-    due: Cell<Option<Time>>,
+    repeated: Rc<Repeated>,
 }
 
 impl Alarm {
     /// An alarm that is not set.
     pub fn new(handle: &Handle, action: impl Fn() + 'static) -> Alarm {
-        let alarm = AlarmState { action: Box::new(action), due: Cell::default() };
-        Alarm { state: Rc::clone(&handle.0), alarm: Rc::new(alarm) }
+        let repeated = Repeated { action: Box::new(action), due: Cell::default() };
+        Alarm { state: Rc::clone(&handle.0), repeated: Rc::new(repeated) }
     }
 
     /// Sets the alarm for `time`, unless it is set for that or an earlier time already. A time that
     /// is past counts as the present.
     pub fn set(&self, time: Time) {
         let time = time.max(self.state.now.get());
-        if self.alarm.due.get().is_none_or(|due| time < due) {
-            self.alarm.due.set(Some(time));
-            self.state.schedule(time, Event::Alarm(Rc::clone(&self.alarm)));
+        if self.repeated.due.get().is_none_or(|due| time < due) {
+            self.repeated.due.set(Some(time));
+            self.state.schedule(time, Event::Alarm(Rc::clone(&self.repeated)));
         }
-    }
-}
-
-impl AlarmState {
-    /// Whether the alarm is set for `time`.
-    pub(crate) fn is_due(&self, time: Time) -> bool {
-        self.due.get() == Some(time)
-    }
-
-    /// Goes off; the action may set the alarm anew.
-    pub(crate) fn go_off(&self) {
-        self.due.set(None);
-        (self.action)();
     }
 }

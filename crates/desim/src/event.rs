@@ -4,7 +4,7 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::rc::Rc;
 
-use crate::alarm::AlarmState;
+use crate::repeated::Repeated;
 use crate::ticket::{ProcessId, Ticket};
 use crate::time::Time;
 
@@ -19,7 +19,7 @@ pub(crate) enum Event {
     /// A callback runs.
     Call(Box<dyn FnOnce()>),
     /// An alarm goes off, if it is still set for this time.
-    Alarm(Rc<AlarmState>),
+    Alarm(Rc<Repeated>),
 }
 
 /// Events to come. The sequence number is given when an event is scheduled, so that of two events

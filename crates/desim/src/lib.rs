@@ -23,6 +23,7 @@ mod alarm;
 mod event;
 mod handle;
 mod process;
+mod repeated;
 mod signal;
 mod simulation;
 mod stalled;

@@ -43,7 +43,7 @@ impl Simulation {
                 Event::Timer(ticket) => self.time_came(ticket),
                 Event::Wake(ticket) => self.wake(ticket),
                 Event::Call(action) => action(),
-                Event::Alarm(alarm) => alarm.go_off(),
+                Event::Alarm(alarm) => alarm.call(),
             }
             if self.state.is_halted.get() {
                 break;

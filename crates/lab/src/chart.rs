@@ -7,6 +7,8 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use crate::experiment::Plot;
+use crate::measure::Measure;
+use crate::power_law::PowerLaw;
 use crate::scale::Scale;
 use crate::series::{Drawing, Series};
 use crate::table::Table;
@@ -75,10 +77,9 @@ const fn px(pixels: u32) -> i32 {
 }
 
 fn draw(area: &Area, drawing: &Drawing, plot: &Plot) -> Drawn {
-    let title = plot
-        .title
-        .clone()
-        .unwrap_or_else(|| format!("{} by {}", words(&plot.y), words(&plot.x).to_lowercase()));
+    let (x, y) = (Measure::of(&plot.x), Measure::of(&plot.y));
+    let title = || format!("{} by {}", y.words(), x.words().to_lowercase());
+    let title = plot.title.clone().unwrap_or_else(title);
     area.fill(&WHITE)?;
     area.draw(&Text::new(title, (px(24), px(18)), font(19, INK)))?;
     let mut chart = ChartBuilder::on(area)
@@ -98,8 +99,8 @@ fn draw(area: &Area, drawing: &Drawing, plot: &Plot) -> Drawn {
         .set_all_tick_mark_size(px(5))
         .label_style(font(14, INK))
         .axis_desc_style(font(15, INK))
-        .x_desc(with_unit(&plot.x, &drawing.unit))
-        .y_desc(with_unit(&plot.y, ""))
+        .x_desc(x.with_unit(&drawing.unit))
+        .y_desc(y.with_unit(""))
         .draw()?;
     let ideal = plot.x == "processors" && plot.y == "speed_up";
     if ideal {
@@ -114,16 +115,18 @@ fn draw(area: &Area, drawing: &Drawing, plot: &Plot) -> Drawn {
 
 fn x_scale(drawing: &Drawing, plot: &Plot) -> Scale {
     let values = drawing.points().map(|(x, _)| x);
-    match plot.log_x {
-        _ if !drawing.categories.is_empty() => Scale::names(&drawing.categories),
-        true => Scale::logarithmic(values.clone()).ticked_at(values),
-        false => Scale::linear(values.clone()).ticked_at(values),
-    }
+    let scale = match plot.logarithmic()[0] {
+        _ if !drawing.categories.is_empty() => return Scale::names(&drawing.categories),
+        true => Scale::logarithmic(values.clone()),
+        false => Scale::linear(values.clone()),
+    };
+    // Figures of runs are no round numbers.
+    if drawing.swept { scale.ticked_at(values) } else { scale }
 }
 
 fn y_scale(drawing: &Drawing, plot: &Plot) -> Scale {
     let values = drawing.points().map(|(_, y)| y);
-    if plot.log_y { Scale::logarithmic(values) } else { Scale::linear(values) }
+    if plot.logarithmic()[1] { Scale::logarithmic(values) } else { Scale::linear(values) }
 }
 
 /// The speed-up that equals the number of processors.
@@ -139,7 +142,10 @@ fn draw_series(chart: &mut Chart, series: &Series, colour: RGBColor) -> Drawn {
     let dashes = DashedLineSeries::new(paper.clone(), px(6), px(4), line(colour, 1));
     chart.draw_series(dashes)?;
     let simulated = series.simulated.iter().copied();
-    chart.draw_series(LineSeries::new(simulated.clone(), line(colour, 2)))?;
+    // A law is straight between its ends: both axes are logarithmic.
+    let through = |law: PowerLaw| simulated.clone().map(move |(x, _)| (x, law.at(x))).collect();
+    let points: Vec<_> = series.law.map_or_else(|| simulated.clone().collect(), through);
+    chart.draw_series(LineSeries::new(points, line(colour, 2)))?;
     chart.draw_series(paper.clone().map(|at| Circle::new(at, px(4), WHITE.filled())))?;
     chart.draw_series(paper.map(|at| Circle::new(at, px(4), line(colour, 1))))?;
     chart.draw_series(simulated.map(|at| Circle::new(at, px(4), colour.filled())))?;
@@ -211,25 +217,4 @@ fn font(pixels: u32, colour: RGBColor) -> TextStyle<'static> {
 /// Text that begins right of its point.
 fn beside(pixels: u32, colour: RGBColor) -> TextStyle<'static> {
     font(pixels, colour).pos(Pos::new(HPos::Left, VPos::Center))
-}
-
-/// A column's name for people: without the field that holds it, and without its unit.
-fn words(column: &str) -> String {
-    let name = column.rsplit('.').next().unwrap_or(column);
-    match name {
-        "speed_up" => return "Speed-up".to_owned(),
-        "paper_speed_up" => return "Paper's speed-up".to_owned(),
-        _ => {}
-    }
-    let words = name.strip_suffix("_s").unwrap_or(name).replace('_', " ");
-    let mut letters = words.chars();
-    let first = letters.next().into_iter().flat_map(char::to_uppercase);
-    first.chain(letters).collect()
-}
-
-/// A column's name with its unit: one of its cells, or the one that the name ends in.
-fn with_unit(column: &str, unit: &str) -> String {
-    let unit = if column.ends_with("_s") { "s" } else { unit };
-    let words = words(column);
-    if unit.is_empty() { words } else { format!("{words} ({unit})") }
 }

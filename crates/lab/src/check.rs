@@ -2,15 +2,19 @@
 
 use std::path::Path;
 
+use multicomputer::Trace;
+
 use crate::document::Document;
 use crate::engine;
 use crate::fault::Fault;
+use crate::file;
 use crate::find::Found;
+use crate::open_machine::OpenMachine;
 use crate::plan::Plan;
 use crate::scene::Scene;
 
-/// Validates an experiment, a machine, a scene description or an OBJ file, with all that it
-/// names, and says what it is.
+/// Validates an experiment, a machine, a trace, a scene description or an OBJ file, with all that
+/// it names, and says what it is.
 ///
 /// # Errors
 /// The first fault met.
@@ -18,23 +22,34 @@ pub fn check(path: &Path) -> Result<String, Fault> {
     if path.extension().is_some_and(|ending| ending == "obj") {
         return scene(path, "an OBJ file");
     }
-    let document = Document::read(path)?;
+    let text = file::read_text(path)?;
+    if text.trim_start().starts_with('[') {
+        let file = path.display().to_string();
+        let trace = Trace::from_json(&text, &file, usize::MAX).map_err(Fault::complete)?;
+        return Ok(format!("a trace, {} messages", trace.items.len()));
+    }
+    let document = Document::parse(path.display().to_string(), text)?;
     let has = |key: &str| document.value.get(key).is_some();
     if has("scene") || has("plots") {
         let plan = Plan::read(path, &[])?;
         let (runs, problems) = (plan.runs.len(), plan.problems.len());
         return Ok(format!("an experiment, {runs} runs of {problems} meshed scenes"));
     }
-    if has("obj") {
+    if has("obj") || has("made") {
         return scene(path, "a scene");
     }
     if has("processor") || has("network") {
-        let machine = engine::load_machine(path)?;
-        let nodes = (machine.compute_nodes(), machine.service_nodes());
-        return Ok(format!("a machine, {} compute nodes and {} service nodes", nodes.0, nodes.1));
+        let machine = OpenMachine::load(&path.display().to_string())?.machine;
+        let (compute, service) = (machine.compute_nodes(), machine.service_nodes());
+        let what = format!("a machine, {compute} compute nodes and {service} service nodes");
+        if machine.processor.cycles.is_empty() {
+            return Ok(what + "; it prices no operation, so that it only replays traces");
+        }
+        engine::load_machine(path)?;
+        return Ok(what);
     }
-    let message = "neither an experiment (\"scene\"), a scene (\"obj\") nor a machine (\"processor\"); \
-                   expected one of them, or an OBJ file";
+    let message = "neither an experiment (\"scene\"), a scene (\"obj\" or \"made\") nor a machine (\"processor\"); \
+                   expected one of them, a trace, or an OBJ file";
     Err(Fault::of_file(path.display(), message))
 }
 

@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 
+use crate::engine;
 use crate::figures::Figures;
 use crate::plan::Tells;
 use crate::sweep::Axis;
@@ -41,8 +42,26 @@ const LAST: [&str; 13] = [
     "failure",
 ];
 
+/// What the names of the host's columns begin with. They are no columns of runs.csv: they come from
+/// host-times.json.
+pub const HOST: &str = "host.";
+
+/// What the host took for a run, as host-times.json names it.
+pub const HOST_TIMES: [&str; 3] = ["cpu_s", "set_up_s", "clock_s"];
+
+/// The column of operations, and what the name of a single count in it begins with.
+pub const OPERATIONS: [&str; 2] = ["operations", "operations."];
+
+/// All columns that can be drawn: those of a sweep, each count of operations, the host's.
+pub fn drawable(axes: &[Axis], tells: Tells) -> Vec<String> {
+    let counts = engine::operations().map(|count| OPERATIONS[1].to_owned() + count);
+    let host = HOST_TIMES.iter().map(|time| HOST.to_owned() + time);
+    names(axes, tells).into_iter().chain(counts).chain(host).collect()
+}
+
 /// The columns after these, where results tell of the network.
-const OF_THE_NETWORK: [&str; 4] = ["network_used", "network_why", "busiest_link", "blocked_s"];
+const OF_THE_NETWORK: [&str; 5] =
+    ["network_used", "network_why", "difference_from_finest", "busiest_link", "blocked_s"];
 
 /// The column after these, where results tell of caches.
 const OF_CACHES: [&str; 1] = ["missing_s"];

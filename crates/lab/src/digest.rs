@@ -32,7 +32,12 @@ impl FileDigest {
     /// # Errors
     /// If it cannot be read.
     pub fn of(path: &Path, label: &str) -> Result<FileDigest, Fault> {
-        Ok(FileDigest { label: label.replace('\\', "/"), sha256: sha256(&file::read(path)?) })
+        Ok(FileDigest::of_bytes(&file::read(path)?, label))
+    }
+
+    /// Digests the bytes of a file that results call `label`.
+    pub fn of_bytes(bytes: &[u8], label: &str) -> FileDigest {
+        FileDigest { label: label.replace('\\', "/"), sha256: sha256(bytes) }
     }
 }
 

@@ -26,6 +26,11 @@ pub enum On {
     Threads,
 }
 
+/// Names of the operations that runs count.
+pub fn operations() -> impl Iterator<Item = &'static str> {
+    Operation::ALL.iter().map(|operation| operation.name())
+}
+
 /// Reads a machine description and makes sure that it prices every operation.
 ///
 /// # Errors

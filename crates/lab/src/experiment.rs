@@ -1,10 +1,10 @@
 //! An experiment file, typed: one point of its sweep, every field as the user may write it.
 
+use multicomputer::Model;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use crate::network::NetworkChoice;
 use crate::quantity::{Fraction, Length, Period, Triple};
 use crate::schema;
 
@@ -41,7 +41,7 @@ pub struct Experiment {
     /// Model of the network, in place of the one that the machine's file chooses. With it come the
     /// columns network_used, network_why, busiest_link and blocked_s.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub network: Option<NetworkChoice>,
+    pub network: Option<Model>,
     /// How far the time on the network "auto" may be from that on the next finer one. Default: 1 %.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub network_tolerance: Option<Fraction>,
@@ -97,6 +97,10 @@ pub struct Experiment {
     /// Whether compute nodes send radiosity updates to the service node. Paper: Figure 6.
     #[serde(default = "yes")]
     pub radiosity_updates: bool,
+    /// Whether runs use the shots of others again. It changes no result, only what
+    /// the host takes: off where that is to be measured, so that no run lives on another's work.
+    #[serde(default = "yes", skip_serializing_if = "is_true")]
+    pub reuse_shots: bool,
     /// Seed of every random choice.
     #[serde(default = "default_seed")]
     pub seed: u64,
@@ -219,11 +223,14 @@ impl Default for Stop {
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Plot {
-    /// Column of runs.csv along the horizontal axis.
+    /// What runs along the horizontal axis: a column of runs.csv, a count of operations such as
+    /// "operations.ray", a time of the host such as "host.cpu_s", or the product of several, such as
+    /// "patches*local_shots".
     pub x: String,
-    /// Column of runs.csv along the vertical axis.
+    /// What runs along the vertical axis, said in the same way.
     pub y: String,
-    /// Column whose values each make a line. Fields swept besides make lines of their own too.
+    /// Column whose values each make a line. Fields swept besides make lines of their own too where
+    /// x is a swept field; where x is a figure of the runs, they run along the lines.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub series: Option<String>,
     /// Heading. Default: made from the columns' names.
@@ -235,6 +242,10 @@ pub struct Plot {
     /// Whether the vertical axis is logarithmic.
     #[serde(default)]
     pub log_y: bool,
+    /// Whether to draw, in place of lines from point to point, the power law that comes nearest to
+    /// a line's points, and to tell its exponent. Both axes are logarithmic then.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub power_law: bool,
     /// Name of the SVG file, without folder or ending. Default: "<y>-by-<x>".
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
@@ -243,8 +254,19 @@ pub struct Plot {
 impl Plot {
     /// Name of the SVG file, without folder or ending.
     pub fn stem(&self) -> String {
-        self.file.clone().unwrap_or_else(|| format!("{}-by-{}", self.y, self.x))
+        let stem = || format!("{}-by-{}", self.y, self.x).replace(' ', "").replace('*', "-x-");
+        self.file.clone().unwrap_or_else(stem)
     }
+
+    /// Whether the horizontal and the vertical axis are logarithmic.
+    pub fn logarithmic(&self) -> [bool; 2] {
+        [self.log_x || self.power_law, self.log_y || self.power_law]
+    }
+}
+
+/// A field that is false by default is not told.
+fn is_false(value: &bool) -> bool {
+    !value
 }
 
 fn default_machine() -> String {
@@ -261,4 +283,9 @@ fn default_seed() -> u64 {
 
 fn yes() -> bool {
     true
+}
+
+/// A field that is true by default is not told either.
+fn is_true(value: &bool) -> bool {
+    *value
 }

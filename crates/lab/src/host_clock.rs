@@ -2,18 +2,40 @@
 
 use std::time::Instant;
 
+use cpu_time::ThreadTime;
+
 /// A moment of host time.
-pub struct HostClock(Instant);
+pub struct HostClock {
+    instant: Instant,
+    thread: ThreadTime,
+}
 
 impl HostClock {
     /// Starts counting.
     #[expect(clippy::disallowed_methods, reason = "goes to host-times.json alone")]
     pub fn start() -> HostClock {
-        HostClock(Instant::now())
+        HostClock { instant: Instant::now(), thread: ThreadTime::now() }
     }
 
     /// Host seconds since the start.
     pub fn seconds(&self) -> f64 {
-        self.0.elapsed().as_secs_f64()
+        self.instant.elapsed().as_secs_f64()
     }
+
+    /// CPU seconds of this thread, which started the clock, since then: others that share its
+    /// processor do not lengthen them.
+    pub fn cpu_seconds(&self) -> f64 {
+        self.thread.elapsed().as_secs_f64()
+    }
+}
+
+/// What the host took for one run.
+#[derive(Clone, Copy, Debug)]
+pub struct HostTimes {
+    /// CPU seconds of the thread that did it; what other threads did for it is not among them.
+    pub cpu_s: f64,
+    /// CPU seconds of making its scene ready: reading, cleaning, cutting, meshing. Runs share it.
+    pub set_up_s: f64,
+    /// Seconds on the clock.
+    pub clock_s: f64,
 }

@@ -18,14 +18,21 @@ mod fault;
 mod figures;
 mod file;
 mod find;
+mod held;
 mod host_clock;
+mod host_memory;
+mod host_times;
 mod json;
+mod measure;
 mod network;
+mod networks;
 mod open_machine;
 mod open_scene;
 mod place;
 mod plan;
 mod planner;
+mod power_law;
+mod program;
 mod quantity;
 mod queue;
 mod ray_bench;
@@ -39,20 +46,30 @@ mod scene_file;
 mod schema;
 mod series;
 mod settings;
+mod shot_files;
 mod summary;
 mod sweep;
 mod table;
 
 pub use check::check;
 pub use engine::On;
-pub use experiment::experiment_schema;
+pub use experiment::{Plot, experiment_schema};
 pub use fault::Fault;
 pub use file::{read_text, write as write_file};
 pub use host_clock::HostClock;
-pub use open_machine::open_machine;
+pub use host_memory::half_of_free_memory;
+pub use networks::text as networks_text;
+pub use open_machine::OpenMachine;
 pub use open_scene::OpenScene;
 pub use plan::Plan;
 pub use ray_bench::RayBench;
 pub use results::{Results, write_host_times};
 pub use runner::{Endings, Event, Options, Watch, carry_out};
 pub use scene_file::scene_schema;
+pub use shot_files::ShotFiles;
+pub use table::Table;
+
+/// Draws a plot of a table as the text of an SVG file; a column `paper_<y>` holds published points.
+pub fn svg(table: &Table, plot: &Plot) -> String {
+    chart::svg(table, &[], plot)
+}

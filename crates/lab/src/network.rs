@@ -1,7 +1,6 @@
 //! Which model of the network a run is simulated on, and what it tells of the network.
 
-use multicomputer::{Choice, Machine, MachineError, Record, Recorder, Rung};
-use schemars::JsonSchema;
+use multicomputer::{Choice, Machine, MachineError, Model, Record, Recorder};
 use serde::{Deserialize, Serialize};
 use virtwall::{Outcome, Run, RunError};
 
@@ -9,36 +8,6 @@ use crate::experiment::Experiment;
 
 /// How far "auto" may be from the next finer model, unless the experiment says.
 const TOLERANCE: f64 = 0.01;
-
-/// A model of the network. Each tells more of what happens than the one before, and costs more of the
-/// host's time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum NetworkChoice {
-    /// Messages arrive at once and cost nothing.
-    Ideal,
-    /// LogGP with hops, without contention.
-    LogGp,
-    /// Worms that hold the links of their routes, message by message.
-    Wormhole,
-    /// Flits, buffers and virtual channels, cycle by cycle: slow.
-    Flit,
-    /// The cheapest of them whose time differs little from the next one's.
-    Auto,
-}
-
-impl NetworkChoice {
-    /// The rung of the ladder; none if that is to be found out.
-    fn rung(self) -> Option<Rung> {
-        match self {
-            NetworkChoice::Ideal => Some(Rung::Ideal),
-            NetworkChoice::LogGp => Some(Rung::LogGp),
-            NetworkChoice::Wormhole => Some(Rung::Wormhole),
-            NetworkChoice::Flit => Some(Rung::Flit),
-            NetworkChoice::Auto => None,
-        }
-    }
-}
 
 /// What a run tells of its network, where an experiment asks for a model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -57,8 +26,8 @@ pub struct NetworkFigures {
 ///
 /// # Errors
 /// What is missing.
-pub fn check(machine: &Machine, choice: Option<NetworkChoice>) -> Result<(), MachineError> {
-    match choice.and_then(NetworkChoice::rung) {
+pub fn check(machine: &Machine, choice: Option<Model>) -> Result<(), MachineError> {
+    match choice.and_then(Model::rung) {
         Some(rung) => machine.network_on(rung).map(|_| ()),
         None => Ok(()),
     }
@@ -66,7 +35,7 @@ pub fn check(machine: &Machine, choice: Option<NetworkChoice>) -> Result<(), Mac
 
 /// Whether results tell of the network: an experiment, or a machine's file, that leaves the model open
 /// wants to know what was chosen.
-pub fn tells(machine: &Machine, choice: Option<NetworkChoice>) -> bool {
+pub fn tells(machine: &Machine, choice: Option<Model>) -> bool {
     choice.is_some() || machine.rung.is_none()
 }
 
@@ -86,7 +55,7 @@ pub fn simulate(
         let outcome = virtwall::simulate_over(run, machine, network)?;
         Ok::<_, RunError>((outcome.time, outcome))
     };
-    let chosen = match point.network.map_or(machine.rung, NetworkChoice::rung) {
+    let chosen = match point.network.map_or(machine.rung, Model::rung) {
         None => {
             let tolerance = point.network_tolerance.as_ref().map_or(TOLERANCE, |t| t.value());
             multicomputer::choose(machine, tolerance, over)?

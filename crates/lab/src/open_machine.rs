@@ -8,12 +8,26 @@ use crate::fault::Fault;
 use crate::file;
 use crate::find::{Shelf, find};
 
-/// Reads the machine that a name, or a path to a machine file, means. Unlike an experiment's, it need
-/// not price any operation.
-///
-/// # Errors
-/// What is wrong, and where.
-pub fn open_machine(name: &str) -> Result<Machine, Fault> {
-    let found = find(Path::new("."), Shelf::Machines, name).map_err(Fault::complete)?;
-    Machine::from_json(&file::read_text(&found.path)?, &found.label).map_err(Fault::complete)
+/// A machine, and its file.
+pub struct OpenMachine {
+    /// The machine.
+    pub machine: Machine,
+    /// What results call its file.
+    pub label: String,
+    /// What its file says.
+    pub text: String,
+}
+
+impl OpenMachine {
+    /// Reads the machine that a name, or a path to a machine file, means. Unlike an experiment's, it
+    /// need not price any operation.
+    ///
+    /// # Errors
+    /// What is wrong, and where.
+    pub fn load(name: &str) -> Result<OpenMachine, Fault> {
+        let found = find(Path::new("."), Shelf::Machines, name).map_err(Fault::complete)?;
+        let text = file::read_text(&found.path)?;
+        let machine = Machine::from_json(&text, &found.label).map_err(Fault::complete)?;
+        Ok(OpenMachine { machine, label: found.label, text })
+    }
 }

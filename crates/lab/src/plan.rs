@@ -12,6 +12,7 @@ use crate::comparison::Comparison;
 use crate::digest::FileDigest;
 use crate::experiment::{Experiment, Plot};
 use crate::network;
+use crate::place::Place;
 use crate::settings::Settings;
 use crate::sweep::Axis;
 
@@ -82,6 +83,8 @@ pub struct Prepared {
     pub problem: Arc<Problem>,
     /// The scene's files.
     pub digests: Vec<FileDigest>,
+    /// CPU seconds that reading, cleaning, cutting and meshing took.
+    pub set_up_s: f64,
 }
 
 /// A machine and the file it was read from.
@@ -92,4 +95,11 @@ pub struct Equipment {
     pub path: PathBuf,
     /// Its file.
     pub digest: FileDigest,
+}
+
+/// Which value a run has of each swept field but `field`.
+pub fn all_else(plan: &Plan, run: &Run, field: &str) -> Vec<usize> {
+    let field = Place::of(field);
+    let fields = plan.axes.iter().zip(&run.index).filter(|(axis, _)| axis.place != field);
+    fields.map(|(_, &item)| item).collect()
 }

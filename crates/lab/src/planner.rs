@@ -14,6 +14,8 @@ use crate::experiment::{Experiment, Plot};
 use crate::fault::{Fault, unknown};
 use crate::file::{PLAIN, is_plain};
 use crate::find::{Shelf, find};
+use crate::host_clock::HostClock;
+use crate::measure::Measure;
 use crate::network;
 use crate::place::Place;
 use crate::plan::{Equipment, Plan, Prepared, Run};
@@ -55,7 +57,8 @@ struct Planner<'a> {
     folder: &'a Path,
     document: &'a Document,
     sweep: &'a Sweep,
-    scenes: BTreeMap<PathBuf, Scene>,
+    /// With the CPU seconds that each took.
+    scenes: BTreeMap<PathBuf, (Scene, f64)>,
     machines: Vec<Equipment>,
     problems: Vec<Prepared>,
 }
@@ -72,12 +75,12 @@ impl Planner<'_> {
         let (comparison, compared) = self.comparison(first)?;
 
         let mut files: Vec<FileDigest> =
-            self.scenes.values().flat_map(|s| s.digests.clone()).collect();
+            self.scenes.values().flat_map(|(s, _)| s.digests.clone()).collect();
         files.extend(self.machines.iter().map(|machine| machine.digest.clone()));
         files.extend(compared);
         files.sort();
         files.dedup();
-        let warnings = self.scenes.values().flat_map(|s| s.warnings.clone()).collect();
+        let warnings = self.scenes.values().flat_map(|(s, _)| s.warnings.clone()).collect();
         let plan = Plan {
             name,
             title,
@@ -159,19 +162,23 @@ impl Planner<'_> {
     fn problem(&mut self, point: &Point, typed: &Experiment) -> Result<usize, Fault> {
         let found = find(self.folder, Shelf::Scenes, &typed.scene)
             .map_err(|message| self.fault(point, "scene", message))?;
+        let clock = HostClock::start();
         if !self.scenes.contains_key(&found.path) {
-            self.scenes.insert(found.path.clone(), Scene::load(&found)?);
+            let scene = Scene::load(&found)?;
+            self.scenes.insert(found.path.clone(), (scene, clock.cpu_seconds()));
         }
-        let scene = &self.scenes[&found.path];
+        let (scene, loading_s) = &self.scenes[&found.path];
         let settings = Settings::of(typed, scene)
             .map_err(|(field, message)| self.fault(point, field, message))?;
         if let Some(built) = self.problems.iter().position(|p| p.settings == settings) {
             return Ok(built);
         }
+        let clock = HostClock::start();
         let problem = engine::problem(&scene.geometry, &settings)
             .map_err(|(field, message)| self.fault(point, field, message))?;
+        let set_up_s = loading_s + clock.cpu_seconds();
         let digests = scene.digests.clone();
-        self.problems.push(Prepared { settings, problem, digests });
+        self.problems.push(Prepared { settings, problem, digests, set_up_s });
         Ok(self.problems.len() - 1)
     }
 
@@ -199,14 +206,13 @@ impl Planner<'_> {
 /// Refuses plots of columns that there will not be, or with names that lead elsewhere.
 fn check_plots(plan: &Plan, document: &Document) -> Result<(), Fault> {
     let plots: &[Plot] = &plan.plots;
-    let known = columns::names(&plan.axes, plan.tells());
+    let known = columns::drawable(&plan.axes, plan.tells());
     for (i, plot) in plots.iter().enumerate() {
         let place = Place::of("plots").item(i);
-        let series = plot.series.as_ref();
-        for (field, column) in [("x", Some(&plot.x)), ("y", Some(&plot.y)), ("series", series)] {
-            if let Some(column) = column
-                && !known.contains(column)
-            {
+        let [x, y] = [&plot.x, &plot.y].map(|text| Measure::of(text));
+        let series: Vec<&str> = plot.series.iter().map(String::as_str).collect();
+        for (field, columns) in [("x", x.columns()), ("y", y.columns()), ("series", &series)] {
+            if let Some(column) = columns.iter().find(|&&c| !known.iter().any(|k| k == c)) {
                 let message = unknown("column", column, &known);
                 return Err(document.fault(&place.key(field), message));
             }

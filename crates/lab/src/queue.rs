@@ -3,14 +3,14 @@
 
 use std::sync::Arc;
 
-use virtwall::KeptShots;
+use virtwall::{KeptShots, ShotCounts};
 
 use crate::plan::Plan;
 
 /// Runs that wait, by problem.
 pub struct Queue {
     problems: Vec<Waiting>,
-    budget: usize,
+    counts: ShotCounts,
 }
 
 /// The runs of one problem that wait.
@@ -34,8 +34,8 @@ pub struct Task {
 }
 
 impl Queue {
-    /// A queue of the runs `waiting`; each problem worked on may keep `budget` bytes of shots.
-    pub fn new(plan: &Plan, waiting: impl Iterator<Item = usize>, budget: usize) -> Queue {
+    /// A queue of the runs `waiting`.
+    pub fn new(plan: &Plan, waiting: impl Iterator<Item = usize>) -> Queue {
         let empty = |patches| Waiting { runs: Vec::new(), active: 0, patches, kept: None };
         let mut problems: Vec<Waiting> =
             plan.problems.iter().map(|prepared| empty(prepared.problem.patches())).collect();
@@ -43,18 +43,18 @@ impl Queue {
             problems[plan.runs[run].problem].runs.push(run);
         }
         problems.iter_mut().for_each(|problem| problem.runs.reverse());
-        Queue { problems, budget }
+        Queue { problems, counts: ShotCounts::default() }
     }
 
     /// The next run: of the problem with the fewest workers, of those one already begun, of those
-    /// the one with the most patches.
-    pub fn take(&mut self) -> Option<Task> {
+    /// the one with the most patches. The first one of a problem has its shots `kept`.
+    pub fn take(&mut self, kept: impl FnOnce(usize) -> KeptShots) -> Option<Task> {
         let waiting = self.problems.iter_mut().enumerate().filter(|(_, p)| !p.runs.is_empty());
         let (index, problem) =
             waiting.min_by_key(|(_, p)| (p.active, p.kept.is_none(), usize::MAX - p.patches))?;
         let run = problem.runs.pop()?;
         problem.active += 1;
-        let kept = problem.kept.get_or_insert_with(|| Arc::new(KeptShots::new(self.budget)));
+        let kept = problem.kept.get_or_insert_with(|| Arc::new(kept(index)));
         Some(Task { run, problem: index, kept: Arc::clone(kept) })
     }
 
@@ -63,7 +63,12 @@ impl Queue {
         let problem = &mut self.problems[task.problem];
         problem.active -= 1;
         if problem.active == 0 && problem.runs.is_empty() {
-            problem.kept = None;
+            self.counts += problem.kept.take().map_or(ShotCounts::default(), |kept| kept.counts());
         }
+    }
+
+    /// What became of the shots that ended problems asked for.
+    pub fn counts(&self) -> ShotCounts {
+        self.counts
     }
 }

@@ -10,13 +10,16 @@ use crate::chart;
 use crate::console::table_text;
 use crate::digest::sha256;
 use crate::document::Document;
+use crate::engine::On;
 use crate::experiment::Plot;
 use crate::fault::Fault;
 use crate::file::{self, PLAIN, is_plain};
+use crate::host_clock::HostTimes;
+use crate::host_times;
 use crate::place::Place;
 use crate::plan::Plan;
 use crate::report;
-use crate::runner::{Endings, Options};
+use crate::runner::Endings;
 use crate::saved::Saved;
 use crate::table::Table;
 
@@ -33,9 +36,9 @@ impl Results {
     ///
     /// # Errors
     /// None is known: all is made in memory.
-    pub fn of(plan: &Plan, endings: &Endings, options: Options) -> io::Result<Results> {
+    pub fn of(plan: &Plan, endings: &Endings, on: On) -> io::Result<Results> {
         let table = Table::of(plan, endings);
-        let manifest = manifest(plan, &table, options)?;
+        let manifest = manifest(plan, &table, on)?;
         Ok(Results { table, manifest })
     }
 
@@ -85,7 +88,8 @@ impl Results {
         Ok(())
     }
 
-    /// Draws plots and report into a folder; returns the names of the files.
+    /// Draws plots and report into a folder, with the host's times that it holds; returns the names
+    /// of the files.
     ///
     /// # Errors
     /// If a file cannot be written.
@@ -93,12 +97,16 @@ impl Results {
         let sweeps = self.sweeps();
         let mut names = Vec::new();
         let mut drawings = Vec::new();
+        let table = host_times::beside(&self.table, out);
         for plot in self.plots() {
-            let svg = chart::svg(&self.table, &sweeps, &plot);
+            let svg = chart::svg(&table, &sweeps, &plot);
             let name = format!("{}.svg", plot.stem());
             file::write(&out.join(&name), svg.as_bytes())?;
             names.push(name);
-            drawings.push(svg);
+            // The report is the same on every host.
+            if !host_times::shown_in(&plot) {
+                drawings.push(svg);
+            }
         }
         let html = report::html(&self.manifest, &self.table, &sweeps, &drawings);
         file::write(&out.join("report.html"), html.as_bytes())?;
@@ -129,7 +137,7 @@ impl Results {
 }
 
 /// Everything that says where the results come from, and nothing of the host.
-fn manifest(plan: &Plan, table: &Table, options: Options) -> io::Result<Value> {
+fn manifest(plan: &Plan, table: &Table, on: On) -> io::Result<Value> {
     let problems = plan.problems.iter().map(|prepared| {
         let mut problem = json!(prepared.settings);
         problem["patches"] = prepared.problem.patches().into();
@@ -141,7 +149,7 @@ fn manifest(plan: &Plan, table: &Table, options: Options) -> io::Result<Value> {
     Ok(json!({
         "title": plan.title,
         "virtwall": env!("CARGO_PKG_VERSION"),
-        "on": options.on,
+        "on": on,
         "seed": plan.resolved["seed"],
         "runs": table.rows.len(),
         "runs_csv_sha256": sha256(&table.to_csv()?),
@@ -163,8 +171,25 @@ pub fn write_host_times(
     seconds: f64,
     threads: usize,
 ) -> io::Result<()> {
-    let times = json!({ "threads": threads, "seconds": seconds, "runs": endings.host_seconds });
-    file::write(&out.join("host-times.json"), pretty(&times)?.as_bytes())
+    let shots = json!({
+        "asked": endings.shots.asked(),
+        "found_in_memory": endings.shots.in_memory,
+        "found_on_disk": endings.shots.archived,
+        "cast": endings.shots.cast,
+        "cast_in_vain": endings.shots.in_vain,
+        "most_bytes_in_memory": endings.shot_bytes,
+    });
+    let of_runs = |times: &dyn Fn(&HostTimes) -> f64| -> Value {
+        endings.host.iter().map(|run| run.as_ref().map(times)).collect()
+    };
+    let runs = json!({
+        "cpu_s": of_runs(&|run| run.cpu_s),
+        "set_up_s": of_runs(&|run| run.set_up_s),
+        "clock_s": of_runs(&|run| run.clock_s),
+    });
+    let times = json!({ "threads": threads, "seconds": seconds, "shots": shots, "runs": runs });
+    fs::create_dir_all(out)?;
+    file::write(&out.join(host_times::FILE), pretty(&times)?.as_bytes())
 }
 
 fn pretty(value: &Value) -> io::Result<String> {

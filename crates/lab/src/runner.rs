@@ -2,27 +2,31 @@
 
 use std::io;
 use std::path::Path;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use virtwall::{Helpers, KeptShots, Memory, ShotCounts};
 
 use crate::engine::{self, On};
 use crate::figures::Figures;
-use crate::host_clock::HostClock;
+use crate::held::held;
+use crate::host_clock::{HostClock, HostTimes};
 use crate::plan::Plan;
 use crate::queue::{Queue, Task};
 use crate::saved::Saved;
-
-/// Host memory for shots kept between runs, shared out among the problems worked on at a time.
-const KEPT_BYTES: usize = 2 << 30;
+use crate::shot_files::ShotFiles;
 
 /// How a plan is carried out. None of it changes what a simulated run finds.
-#[derive(Clone, Copy, Debug)]
 pub struct Options {
-    /// Runs side by side, at least 1.
+    /// Threads, at least 1: each does a run; when no run waits any more, it helps with those under way.
     pub threads: usize,
     /// Whether to forget runs that an interrupted sweep has finished.
     pub fresh: bool,
     /// What the programs run on.
     pub on: On,
+    /// Host memory for shots that are kept between runs, bytes.
+    pub memory: usize,
+    /// Where shots are kept beyond memory and beyond this sweep.
+    pub shot_files: Option<ShotFiles>,
 }
 
 /// Something that happened while a plan is carried out.
@@ -52,15 +56,19 @@ pub type Ending = Result<Figures, String>;
 pub struct Endings {
     /// In the plan's order; none for a run that was not come to.
     pub runs: Vec<Option<Ending>>,
-    /// Host seconds of each run; none for those found finished.
-    pub host_seconds: Vec<Option<f64>>,
+    /// What the host took for each run; none for those found finished.
+    pub host: Vec<Option<HostTimes>>,
+    /// What became of the shots that runs asked for.
+    pub shots: ShotCounts,
+    /// Host memory that kept shots took at most, bytes.
+    pub shot_bytes: usize,
 }
 
 /// Carries out all runs of a plan that are not saved in `out`, and saves each there.
 ///
 /// # Errors
 /// If a finished run cannot be saved. A run that fails is no error here: it ends so.
-pub fn carry_out(plan: &Plan, out: &Path, options: Options, watch: Watch) -> io::Result<Endings> {
+pub fn carry_out(plan: &Plan, out: &Path, options: &Options, watch: Watch) -> io::Result<Endings> {
     let saved = Saved::in_folder(out);
     if options.fresh {
         saved.forget()?;
@@ -70,39 +78,45 @@ pub fn carry_out(plan: &Plan, out: &Path, options: Options, watch: Watch) -> io:
     found.iter().flatten().for_each(|_| watch(Event::Found));
 
     let waiting = (0..plan.runs.len()).filter(|&run| found[run].is_none());
-    let workers = options.threads.clamp(1, plan.runs.len().max(1));
-    let budget = KEPT_BYTES / workers.min(plan.problems.len()).max(1);
+    let threads = options.threads.max(1);
     let desk = Desk {
         plan,
         options,
         watch,
         saved,
         keys,
-        queue: Mutex::new(Queue::new(plan, waiting, budget)),
-        endings: Mutex::new(Endings { runs: found, host_seconds: vec![None; plan.runs.len()] }),
+        memory: Arc::new(Memory::new(options.memory)),
+        helpers: Arc::new(Helpers::of(threads)),
+        queue: Mutex::new(Queue::new(plan, waiting)),
+        runs: Mutex::new(found),
+        host: Mutex::new(vec![None; plan.runs.len()]),
         trouble: Mutex::new(None),
     };
     std::thread::scope(|scope| {
-        for _ in 0..workers {
-            scope.spawn(|| desk.work());
+        for _ in 0..threads {
+            scope.spawn(|| desk.helpers.work_then_help(|| desk.work()));
         }
     });
-    match held(&desk.trouble).take() {
+    let trouble = held(&desk.trouble).take();
+    match trouble {
         Some(error) => Err(error),
-        None => Ok(desk.endings.into_inner().unwrap_or_else(PoisonError::into_inner)),
+        None => Ok(desk.endings()),
     }
 }
 
 /// What the workers share.
 struct Desk<'a> {
     plan: &'a Plan,
-    options: Options,
+    options: &'a Options,
     watch: Watch,
     saved: Saved,
     /// Under which each run is saved.
     keys: Vec<String>,
+    memory: Arc<Memory>,
+    helpers: Arc<Helpers>,
     queue: Mutex<Queue>,
-    endings: Mutex<Endings>,
+    runs: Mutex<Vec<Option<Ending>>>,
+    host: Mutex<Vec<Option<HostTimes>>>,
     trouble: Mutex<Option<io::Error>>,
 }
 
@@ -110,7 +124,9 @@ impl Desk<'_> {
     /// Works on runs until none waits, or one could not be saved.
     fn work(&self) {
         while held(&self.trouble).is_none() {
-            let Some(task) = held(&self.queue).take() else { return };
+            let Some(task) = held(&self.queue).take(|problem| self.kept_shots(problem)) else {
+                return;
+            };
             let clock = HostClock::start();
             let ending = self.run(&task);
             if let Ok(figures) = &ending
@@ -119,14 +135,31 @@ impl Desk<'_> {
                 *held(&self.trouble) = Some(error);
             }
             let run = task.run;
-            {
-                let mut endings = held(&self.endings);
-                endings.runs[run] = Some(ending);
-                endings.host_seconds[run] = Some(clock.seconds());
-            }
+            let host = HostTimes {
+                cpu_s: clock.cpu_seconds(),
+                set_up_s: self.plan.problems[task.problem].set_up_s,
+                clock_s: clock.seconds(),
+            };
+            held(&self.runs)[run] = Some(ending);
+            held(&self.host)[run] = Some(host);
             held(&self.queue).done(&task);
             (self.watch)(Event::Finished { run });
         }
+    }
+
+    /// Where the runs of a problem keep their shots.
+    fn kept_shots(&self, problem: usize) -> KeptShots {
+        let files = self.options.shot_files.as_ref();
+        let archive = files.map(|files| files.of(&self.plan.problems[problem]));
+        KeptShots::sharing(&self.memory, &self.helpers, archive)
+    }
+
+    /// How all ended.
+    fn endings(self) -> Endings {
+        let (shots, shot_bytes) = (held(&self.queue).counts(), self.memory.most());
+        let runs = self.runs.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let host = self.host.into_inner().unwrap_or_else(PoisonError::into_inner);
+        Endings { runs, host, shots, shot_bytes }
     }
 
     fn run(&self, task: &Task) -> Ending {
@@ -136,12 +169,9 @@ impl Desk<'_> {
         let (watch, index) = (Arc::clone(&self.watch), task.run);
         let on_shot = Arc::new(move || watch(Event::Shot { run: index }));
         let point = &run.point;
-        let run = engine::run(problem, point, &task.kept, on_shot);
+        let nothing_kept = Arc::new(KeptShots::new(0));
+        let kept = if point.reuse_shots { &task.kept } else { &nothing_kept };
+        let run = engine::run(problem, point, kept, on_shot);
         engine::carry_out(&run, point, self.options.on, machine)
     }
-}
-
-/// A lock that does not mind a worker's panic: that ends the program anyway.
-fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -13,17 +13,17 @@ use crate::experiment::Experiment;
 use crate::figures::Figures;
 use crate::file;
 use crate::plan::{Plan, Run};
+use crate::program::program;
 
 /// The folder of finished runs inside a folder of results.
 pub struct Saved {
     folder: PathBuf,
-    program: String,
 }
 
 impl Saved {
     /// The finished runs in the folder of results `out`.
     pub fn in_folder(out: &Path) -> Saved {
-        Saved { folder: out.join(".partial"), program: program() }
+        Saved { folder: out.join(".partial") }
     }
 
     /// What decides a run's figures: the whole point of the experiment but for what only presents
@@ -39,7 +39,7 @@ impl Saved {
             ..run.point.clone()
         };
         let conditions = json!({
-            "program": self.program,
+            "program": program(),
             "on": on,
             "scene": scene,
             "settings": prepared.settings,
@@ -79,11 +79,4 @@ impl Saved {
     fn path(&self, key: &str) -> PathBuf {
         self.folder.join(format!("{key}.json"))
     }
-}
-
-/// SHA-256 of this program's own file: saved runs of another build are not this one's. Where the
-/// program cannot read itself, its version must do.
-fn program() -> String {
-    let bytes = std::env::current_exe().and_then(fs::read);
-    bytes.map_or_else(|_| env!("CARGO_PKG_VERSION").to_owned(), |bytes| sha256(&bytes))
 }

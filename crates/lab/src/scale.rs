@@ -39,7 +39,11 @@ impl Scale {
             values.fold((f64::MAX, 0.0), |(l, h): (f64, f64), v| (l.min(v), h.max(v)));
         let (low, high) = if low <= high { (low / 1.1, high * 1.1) } else { (1.0, 10.0) };
         let decades = (low.log10().floor() as i32)..=(high.log10().ceil() as i32);
-        let digits: &[f64] = if (high / low).log10() < 3.5 { &[1.0, 2.0, 5.0] } else { &[1.0] };
+        let digits: &[f64] = match (high / low).log10() {
+            ..1.0 => &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0],
+            ..3.5 => &[1.0, 2.0, 5.0],
+            _ => &[1.0],
+        };
         let ticks = decades
             .flat_map(|decade| digits.iter().map(move |digit| digit * 10_f64.powi(decade)))
             .filter(|tick| (low..=high).contains(tick))

@@ -1,11 +1,14 @@
 //! A scene: its geometry, with its description if it has one.
 
+use std::cell::RefCell;
 use std::path::Path;
+use std::{fs, io};
+
+use scenemaker::{FLOORS, SceneText, make_building};
 
 use crate::digest::FileDigest;
 use crate::document::Document;
 use crate::fault::Fault;
-use crate::file;
 use crate::find::Found;
 use crate::place::Place;
 use crate::scene_file::SceneFile;
@@ -23,52 +26,73 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Loads a scene description and its OBJ file, or a bare OBJ file.
+    /// Loads a scene description and its geometry, or a bare OBJ file.
     ///
     /// # Errors
     /// What is wrong with them, and where.
     pub fn load(found: &Found) -> Result<Scene, Fault> {
         let (path, label) = (&found.path, Path::new(&found.label));
         if path.extension().is_some_and(|ending| ending == "obj") {
-            return Scene::of_obj(path, label, None, Vec::new());
+            return Scene::of_obj(path, label, &|path| fs::read(path));
         }
         let document = Document::read(path)?;
         let file = SceneFile::of(&document)?;
-        let digests = vec![FileDigest::of(path, &found.label)?];
-        let folder = path.parent().unwrap_or(Path::new(""));
-        let obj = folder.join(&file.obj);
-        if !obj.is_file() {
-            let message = format!("\"{}\": no such file in {}", file.obj, folder.display());
-            return Err(document.fault(&Place::of("obj"), message));
-        }
-        Scene::of_obj(&obj, &label.with_file_name(&file.obj), Some(file), digests)
+        let mut scene = match made(&document, &file)? {
+            Some(text) => {
+                let obj = format!("{}.obj", text.name);
+                let made = |path: &Path| match path.extension().and_then(|e| e.to_str()) {
+                    Some("obj") => Ok(text.obj.clone().into_bytes()),
+                    _ => Ok(text.mtl.clone().into_bytes()),
+                };
+                Scene::of_obj(&path.with_file_name(&obj), &label.with_file_name(&obj), &made)?
+            }
+            None => {
+                let name = file.obj.as_deref().unwrap_or_default();
+                let folder = path.parent().unwrap_or(Path::new(""));
+                let obj = folder.join(name);
+                if !obj.is_file() {
+                    let message = format!("\"{name}\": no such file in {}", folder.display());
+                    return Err(document.fault(&Place::of("obj"), message));
+                }
+                Scene::of_obj(&obj, &label.with_file_name(name), &|path| fs::read(path))?
+            }
+        };
+        scene.digests.insert(0, FileDigest::of(path, &found.label)?);
+        scene.file = Some(file);
+        Ok(scene)
     }
 
+    /// The scene of an OBJ file and its material files, whose bytes `reader` gives.
     fn of_obj(
         path: &Path,
         label: &Path,
-        file: Option<SceneFile>,
-        mut digests: Vec<FileDigest>,
+        reader: &dyn Fn(&Path) -> io::Result<Vec<u8>>,
     ) -> Result<Scene, Fault> {
-        let (geometry, warnings) = radiosity::load_obj(path).map_err(Fault::complete)?;
-        let label_text = label.display().to_string();
-        let warnings = warnings.iter().map(|warning| format!("{label_text}: {warning}")).collect();
-        digests.push(FileDigest::of(path, &label_text)?);
-        // Materials decide the light as much as the geometry does.
-        for library in material_libraries(path)? {
-            let (path, label) = (path.with_file_name(&library), label.with_file_name(&library));
-            if path.is_file() {
-                digests.push(FileDigest::of(&path, &label.display().to_string())?);
-            }
-        }
-        Ok(Scene { file, geometry, warnings, digests })
+        let folder = path.parent().unwrap_or(Path::new(""));
+        // Materials decide the light as much as the geometry does. What is missing is warned of.
+        let digests = RefCell::new(Vec::new());
+        let digesting = |path: &Path| {
+            let bytes = reader(path)?;
+            let name = path.strip_prefix(folder).unwrap_or(path);
+            let label = label.with_file_name(name).display().to_string();
+            digests.borrow_mut().push(FileDigest::of_bytes(&bytes, &label));
+            Ok(bytes)
+        };
+        let (geometry, warnings) =
+            radiosity::load_obj_from(path, &digesting).map_err(Fault::complete)?;
+        let label = label.display();
+        let warnings = warnings.iter().map(|warning| format!("{label}: {warning}")).collect();
+        Ok(Scene { file: None, geometry, warnings, digests: digests.into_inner() })
     }
 }
 
-/// The material files that an OBJ file names.
-fn material_libraries(obj: &Path) -> Result<Vec<String>, Fault> {
-    let text = file::read(obj)?;
-    let text = String::from_utf8_lossy(&text);
-    let names = text.lines().filter_map(|line| line.trim().strip_prefix("mtllib "));
-    Ok(names.map(|name| name.trim().to_owned()).collect())
+/// The scene that a description says to make, if it does.
+fn made(document: &Document, file: &SceneFile) -> Result<Option<SceneText>, Fault> {
+    let Some(made) = file.made else { return Ok(None) };
+    let floors = made.building_floors;
+    let text = make_building(floors, made.seed).ok_or_else(|| {
+        let message = format!("{floors}; expected {} to {}", FLOORS.start(), FLOORS.end());
+        document.fault(&Place::of("made").key("building_floors"), message)
+    });
+    text.map(Some)
 }

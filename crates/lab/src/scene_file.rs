@@ -1,4 +1,4 @@
-//! A scene description: an OBJ file and how finely to mesh and to cut it.
+//! A scene description: its geometry and how finely to mesh and to cut it.
 
 use std::collections::BTreeMap;
 
@@ -17,7 +17,7 @@ pub fn scene_schema() -> Value {
     schema::of::<SceneFile>()
 }
 
-/// A scene: an OBJ file and how finely to mesh and to cut it.
+/// A scene: its geometry, "obj" or "made", and how finely to mesh and to cut it.
 #[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "Virtwall scene")]
@@ -29,7 +29,11 @@ pub struct SceneFile {
     #[serde(default)]
     pub title: Option<String>,
     /// The geometry: an OBJ file, relative to this one.
-    pub obj: String,
+    #[serde(default)]
+    pub obj: Option<String>,
+    /// The geometry where it lies in no file but is made whenever it is read.
+    #[serde(default)]
+    pub made: Option<Made>,
     /// Longest edge of a patch, such as "0.30 m".
     pub patch_size: Length,
     /// Longest edge of a patch that emits light. Default: as "patch_size".
@@ -44,6 +48,22 @@ pub struct SceneFile {
     /// Where the scene comes from.
     #[serde(default)]
     pub source: Option<String>,
+}
+
+/// A building in the manner of the paper's, as `virtwall scene make building` writes it.
+#[derive(Clone, Copy, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Made {
+    /// Its floors, five of which are the paper's, with 200 lights on each.
+    #[schemars(range(min = 2, max = 1000))]
+    pub building_floors: u16,
+    /// Seed of what is drawn at random. Default: that of the paper's building.
+    #[serde(default = "default_seed")]
+    pub seed: u64,
+}
+
+fn default_seed() -> u64 {
+    1996
 }
 
 impl SceneFile {
@@ -61,6 +81,10 @@ impl SceneFile {
                 let message = format!("\"{cut}\" makes {product} local environments");
                 return Err(document.fault(&place, message + "; expected as many as its key says"));
             }
+        }
+        if file.obj.is_some() == file.made.is_some() {
+            let message = "expected either \"obj\", a file, or \"made\"";
+            return Err(document.fault(&Place::default(), message));
         }
         Ok(file)
     }

@@ -1,17 +1,21 @@
 //! What a plot shows: points of simulated and published figures, line by line.
 
 use crate::experiment::Plot;
+use crate::measure::Measure;
+use crate::power_law::PowerLaw;
 use crate::table::Table;
 
 /// One line of a plot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// Its name; empty if there is only one line.
+    /// Its name, with the law's exponent; empty if there is only one line without a law.
     pub name: String,
     /// Simulated points, by x.
     pub simulated: Vec<(f64, f64)>,
     /// Published points, by x.
     pub paper: Vec<(f64, f64)>,
+    /// The law to draw through the simulated points, if one is asked for and there is one.
+    pub law: Option<PowerLaw>,
 }
 
 /// All that a plot shows.
@@ -23,38 +27,45 @@ pub struct Drawing {
     pub categories: Vec<String>,
     /// Unit along the horizontal axis; empty if there is none.
     pub unit: String,
+    /// Whether x is a swept field and not a figure of the runs.
+    pub swept: bool,
 }
 
 impl Drawing {
-    /// What `plot` shows of the results; every field of `sweeps` that is neither x nor the
-    /// series makes lines of its own.
+    /// What `plot` shows of the results; where x is one of the swept fields `sweeps`, each of them
+    /// that is neither x nor the series makes lines of its own.
     pub fn of(table: &Table, sweeps: &[String], plot: &Plot) -> Drawing {
-        let unit = common_unit(table, &plot.x);
+        let swept = sweeps.contains(&plot.x);
+        let (along, up) = (Measure::of(&plot.x), Measure::of(&plot.y));
+        let unit = along.unit(table);
         let numeric = unit.is_some();
         let unit = unit.unwrap_or_default().to_owned();
-        let mut drawing = Drawing { series: Vec::new(), categories: Vec::new(), unit };
-        let paper = match plot.y.as_str() {
-            "speed_up" => "paper_speed_up",
-            "time_s" => "paper_time_s",
-            _ => "",
-        };
+        let mut drawing = Drawing { series: Vec::new(), categories: Vec::new(), unit, swept };
+        let paper = format!("paper_{}", plot.y);
         for row in &table.rows {
             let x = if numeric {
-                table.number(row, &plot.x).unwrap_or_default()
+                along.value(table, row)
             } else {
-                position(&mut drawing.categories, table.cell(row, &plot.x)) as f64
+                Some(position(&mut drawing.categories, table.cell(row, &plot.x)) as f64)
             };
-            let name = name(table, row, sweeps, plot);
+            // A run that failed has no figures.
+            let Some(x) = x else { continue };
+            let besides = if swept { sweeps } else { &[] };
+            let name = name(table, row, besides, plot);
             let series = line(&mut drawing.series, name);
-            series.simulated.extend(table.number(row, &plot.y).map(|y| (x, y)));
-            series.paper.extend(table.number(row, paper).map(|y| (x, y)));
+            series.simulated.extend(up.value(table, row).map(|y| (x, y)));
+            series.paper.extend(table.number(row, &paper).map(|y| (x, y)));
         }
         // A logarithm has no place for zero or less.
-        let fits = |(x, y): &(f64, f64)| (!plot.log_x || *x > 0.0) && (!plot.log_y || *y > 0.0);
+        let [log_x, log_y] = plot.logarithmic();
+        let fits = |(x, y): &(f64, f64)| (!log_x || !numeric || *x > 0.0) && (!log_y || *y > 0.0);
         for series in &mut drawing.series {
             for points in [&mut series.simulated, &mut series.paper] {
                 points.retain(fits);
                 points.sort_by(|a, b| a.0.total_cmp(&b.0));
+            }
+            if plot.power_law && numeric {
+                series.add_law();
             }
         }
         drawing
@@ -66,11 +77,14 @@ impl Drawing {
     }
 }
 
-/// The unit of all cells of a column; `None` if they have not the same, or are no numbers.
-fn common_unit<'a>(table: &'a Table, column: &str) -> Option<&'a str> {
-    let mut units = table.rows.iter().map(|row| table.quantity(row, column).map(|(_, unit)| unit));
-    let first = units.next()??;
-    units.all(|unit| unit == Some(first)).then_some(first)
+impl Series {
+    fn add_law(&mut self) {
+        self.law = PowerLaw::fit(&self.simulated);
+        if let Some(law) = self.law {
+            let between = if self.name.is_empty() { "" } else { ": " };
+            self.name += &(between.to_owned() + &law.words());
+        }
+    }
 }
 
 /// The name of a row's line: its series, and what is swept besides.
@@ -91,7 +105,7 @@ fn name(table: &Table, row: &[String], sweeps: &[String], plot: &Plot) -> String
 fn line(series: &mut Vec<Series>, name: String) -> &mut Series {
     let index = series.iter().position(|line| line.name == name).unwrap_or(series.len());
     if index == series.len() {
-        series.push(Series { name, simulated: Vec::new(), paper: Vec::new() });
+        series.push(Series { name, simulated: Vec::new(), paper: Vec::new(), law: None });
     }
     &mut series[index]
 }
@@ -123,6 +137,18 @@ mod tests {
         let points: Vec<_> =
             drawing.series.iter().map(|s| (s.name.as_str(), s.simulated.as_slice())).collect();
         assert_eq!(points, [("a", &[(0.1, 4.0), (0.3, 5.0)][..]), ("b", &[])]);
+    }
+
+    #[test]
+    fn along_a_figure_of_the_runs_only_the_series_makes_lines() {
+        let rows = [["a", "1 m", "2"], ["b", "1 m", "4"], ["a", "2 m", "3"], ["b", "2 m", ""]];
+        let plot = r#"{"x": "time_s*time_s", "y": "time_s", "series": "size", "power_law": true}"#;
+        let drawing = drawing(&rows, plot);
+        let lines: Vec<_> =
+            drawing.series.iter().map(|s| (s.name.as_str(), s.simulated.as_slice())).collect();
+        let expected =
+            [("1 m: exponent 0.50", &[(4.0, 2.0), (16.0, 4.0)][..]), ("2 m", &[(9.0, 3.0)])];
+        assert_eq!(lines, expected);
     }
 
     #[test]

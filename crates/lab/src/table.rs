@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use crate::columns;
-use crate::place::Place;
-use crate::plan::{Plan, Run};
+use crate::networks::{self, Finest};
+use crate::plan::{Plan, Run, all_else};
 use crate::runner::{Ending, Endings};
 
 /// Rows under named columns.
@@ -20,9 +20,10 @@ impl Table {
     /// The results of a plan's runs, in the plan's order.
     pub fn of(plan: &Plan, endings: &Endings) -> Table {
         let columns = columns::names(&plan.axes, plan.tells());
-        let one_processor = one_processor(plan, endings);
+        let one_processor = &one_processor(plan, endings);
+        let finest = &networks::finest(plan, endings);
         let row = |(run, ending): (&Run, &Option<Ending>)| {
-            let view = View { plan, run, ending: ending.as_ref(), one_processor: &one_processor };
+            let view = View { plan, run, ending: ending.as_ref(), one_processor, finest };
             columns.iter().map(|column| view.cell(column)).collect()
         };
         let rows = plan.runs.iter().zip(&endings.runs).map(row).collect();
@@ -54,8 +55,15 @@ impl Table {
         writer.into_inner().map_err(|error| std::io::Error::other(error.to_string()))
     }
 
-    /// A cell; empty if there is no such column.
+    /// A cell, or one count of a cell of operations; empty if there is no such column.
     pub fn cell<'a>(&'a self, row: &'a [String], column: &str) -> &'a str {
+        let [operations, one] = columns::OPERATIONS;
+        if let Some(name) = column.strip_prefix(one) {
+            let mut counts = self.cell(row, operations).split(' ');
+            return counts
+                .find_map(|count| count.strip_prefix(name)?.strip_prefix('='))
+                .unwrap_or("");
+        }
         let index = self.columns.iter().position(|name| name == column);
         index.and_then(|index| row.get(index)).map_or("", String::as_str)
     }
@@ -80,6 +88,7 @@ struct View<'a> {
     run: &'a Run,
     ending: Option<&'a Ending>,
     one_processor: &'a OneProcessor,
+    finest: &'a Finest,
 }
 
 impl View<'_> {
@@ -96,6 +105,7 @@ impl View<'_> {
                 let share = self.speed_up().map(|s| s / f64::from(point.processors));
                 share.map_or(String::new(), |share| format!("{share:.4}"))
             }
+            "difference_from_finest" => self.difference().unwrap_or_default(),
             "paper_time_s" => published().time_s,
             "paper_speed_up" => published().speed_up,
             _ => self.swept(column).unwrap_or_else(|| self.figure(column)),
@@ -118,9 +128,16 @@ impl View<'_> {
         }
     }
 
+    /// How far this run's time is from that on the finest network run, all else equal.
+    fn difference(&self) -> Option<String> {
+        let (_, finest) = self.finest.get(&all_else(self.plan, self.run, "network"))?;
+        let part = (self.ending?.as_ref().ok()?.time_s? - finest) / finest;
+        part.is_finite().then(|| format!("{:.6} %", part * 100.0))
+    }
+
     /// Time on one processor, all else equal, over this run's time.
     fn speed_up(&self) -> Option<f64> {
-        let one = self.one_processor.get(&all_else(self.plan, self.run))?;
+        let one = self.one_processor.get(&all_else(self.plan, self.run, "processors"))?;
         let time = self.ending?.as_ref().ok()?.time_s?;
         (time > 0.0).then_some(one / time)
     }
@@ -133,12 +150,6 @@ fn one_processor(plan: &Plan, endings: &Endings) -> OneProcessor {
     let runs = plan.runs.iter().zip(&endings.runs);
     let runs = runs.filter(|(run, _)| run.point.processors == 1);
     let time = |ending: &Option<Ending>| ending.as_ref()?.as_ref().ok()?.time_s;
-    runs.filter_map(|(run, ending)| Some((all_else(plan, run), time(ending)?))).collect()
-}
-
-/// Which value a run has of each swept field but processors.
-fn all_else(plan: &Plan, run: &Run) -> Vec<usize> {
-    let processors = Place::of("processors");
-    let fields = plan.axes.iter().zip(&run.index).filter(|(axis, _)| axis.place != processors);
-    fields.map(|(_, &item)| item).collect()
+    runs.filter_map(|(run, ending)| Some((all_else(plan, run, "processors"), time(ending)?)))
+        .collect()
 }

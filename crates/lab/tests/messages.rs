@@ -32,9 +32,9 @@ fn experiments_are_refused_with_place_value_and_expectation() {
         (
             &format!("{{{good},\n\"processor\": 2}}"),
             "experiments/x.json:2: processor: unknown field \"processor\", did you mean \
-             \"processors\"? (there are: $schema, title, scene, machine, processors, \
-             local_environments, cut, cells, patch_size, emitter_patch_size, hemisphere, \
-             selection, ties, stop, merge_masks, mapping, radiosity_updates, seed, compare_with, \
+             \"processors\"? (there are: $schema, title, scene, machine, network, network_tolerance, \
+             processors, local_environments, cut, cells, patch_size, emitter_patch_size, hemisphere, \
+             selection, ties, stop, merge_masks, mapping, radiosity_updates, reuse_shots, seed, compare_with, \
              plots)",
         ),
         (
@@ -145,7 +145,10 @@ fn experiments_are_refused_with_place_value_and_expectation() {
              speed_up, paper_time_s, paper_speed_up, local_shots, received_shots, messages, \
              message_bytes, busy_fraction, energy_error, efficiency, update_messages, \
              update_bytes, control_messages, ending, energy_lost, patches, absorbed, unshot, \
-             in_transit, escaped, operations, failure)",
+             in_transit, escaped, operations, failure, operations.pixel_test, operations.ray, \
+             operations.cell_step, operations.polygon_test, operations.hit, operations.plane_test, \
+             operations.patch_update, operations.patch_scan, operations.queue_scan, \
+             operations.word_copied, host.cpu_s, host.set_up_s, host.clock_s)",
         ),
         (
             &format!(
@@ -214,7 +217,17 @@ fn files_that_an_experiment_names_are_refused_at_their_own_places() {
             "scenes/box.json",
             r#"{"obj": "box.obj", "patch_size": "1 m", "cut": "4x1x1"}"#,
             "scenes/box.json:1: cut: unknown field \"cut\", did you mean \"cuts\"? (there are: \
-             $schema, title, obj, patch_size, emitter_patch_size, cells, cuts, source)",
+             $schema, title, obj, made, patch_size, emitter_patch_size, cells, cuts, source)",
+        ),
+        (
+            "scenes/box.json",
+            r#"{"patch_size": "1 m"}"#,
+            "scenes/box.json: expected either \"obj\", a file, or \"made\"",
+        ),
+        (
+            "scenes/box.json",
+            r#"{"made": {"building_floors": 1}, "patch_size": "1 m"}"#,
+            "scenes/box.json:1: made.building_floors: 1; expected 2 to 1000",
         ),
         (
             "experiments/paper.csv",

@@ -13,7 +13,7 @@ use common::{Project, SWEEP};
 use lab::{Event, On, Options, Plan, Results, carry_out};
 
 fn options(threads: usize) -> Options {
-    Options { threads, fresh: false, on: On::Simulation }
+    Options { threads, fresh: false, on: On::Simulation, memory: 1 << 30, shot_files: None }
 }
 
 fn plan(project: &Project) -> Plan {
@@ -21,7 +21,7 @@ fn plan(project: &Project) -> Plan {
 }
 
 /// Carries the plan out; returns the results, and how many runs were found and how many done.
-fn carried_out(plan: &Plan, out: &Path, options: Options) -> (Results, usize, usize) {
+fn carried_out(plan: &Plan, out: &Path, options: &Options) -> (Results, usize, usize) {
     let counts = Arc::new((AtomicUsize::new(0), AtomicUsize::new(0)));
     let watched = Arc::clone(&counts);
     let watch = Arc::new(move |event| match event {
@@ -30,7 +30,7 @@ fn carried_out(plan: &Plan, out: &Path, options: Options) -> (Results, usize, us
         Event::Shot { .. } => {}
     });
     let endings = carry_out(plan, out, options, watch).unwrap();
-    let results = Results::of(plan, &endings, options).unwrap();
+    let results = Results::of(plan, &endings, options.on).unwrap();
     (results, counts.0.load(Ordering::Relaxed), counts.1.load(Ordering::Relaxed))
 }
 
@@ -47,7 +47,7 @@ fn results_are_the_same_bytes_whatever_runs_side_by_side() {
     let plan = plan(&project);
     let written = |name: &str, threads| {
         let out = project.path(name);
-        carried_out(&plan, &out, options(threads)).0.write(&out).unwrap();
+        carried_out(&plan, &out, &options(threads)).0.write(&out).unwrap();
         let names = ["runs.csv", "manifest.json", "report.html", "speed_up-by-processors.svg"];
         names.map(|name| fs::read(out.join(name)).unwrap())
     };
@@ -60,7 +60,7 @@ fn results_are_the_same_bytes_whatever_runs_side_by_side() {
 #[test]
 fn rows_and_columns_follow_the_file() {
     let project = Project::new(SWEEP);
-    let (results, ..) = carried_out(&plan(&project), &project.path("out"), options(2));
+    let (results, ..) = carried_out(&plan(&project), &project.path("out"), &options(2));
     let table = &results.table;
     assert_eq!(
         table.columns[..15].join(","),
@@ -93,7 +93,7 @@ fn rows_and_columns_follow_the_file() {
 fn a_sweep_goes_on_where_it_was() {
     let project = Project::new(SWEEP);
     let (plan, out) = (plan(&project), project.path("out"));
-    let (whole, found, done) = carried_out(&plan, &out, options(1));
+    let (whole, found, done) = carried_out(&plan, &out, &options(1));
     assert_eq!((found, done), (0, 6));
 
     // Killed before two of its runs had finished: one left half a file, one left nothing.
@@ -101,7 +101,7 @@ fn a_sweep_goes_on_where_it_was() {
     fs::remove_file(&files[0]).unwrap();
     let half = fs::read_to_string(&files[1]).unwrap();
     fs::write(&files[1], &half[..half.len() / 2]).unwrap();
-    let (resumed, found, done) = carried_out(&plan, &out, options(2));
+    let (resumed, found, done) = carried_out(&plan, &out, &options(2));
     assert_eq!((found, done), (4, 2));
     assert_eq!(resumed.table, whole.table);
     assert_eq!(resumed.manifest, whole.manifest);
@@ -111,20 +111,20 @@ fn a_sweep_goes_on_where_it_was() {
     let (before, after) = text.split_once("\"local_shots\":").unwrap();
     let after = after.split_once(',').unwrap().1;
     fs::write(&files[2], format!("{before}\"local_shots\":987654,{after}")).unwrap();
-    let (changed, found, _) = carried_out(&plan, &out, options(1));
+    let (changed, found, _) = carried_out(&plan, &out, &options(1));
     assert_eq!(found, 6);
     let rows = &changed.table.rows;
     assert_eq!(rows.iter().filter(|r| changed.table.cell(r, "local_shots") == "987654").count(), 1);
 
     let fresh = Options { fresh: true, ..options(1) };
-    assert_eq!(carried_out(&plan, &out, fresh).1, 0);
+    assert_eq!(carried_out(&plan, &out, &fresh).1, 0);
 }
 
 #[test]
 fn what_a_run_depends_on_decides_whether_it_is_saved() {
     let project = Project::new(SWEEP);
     let out = project.path("out");
-    let found = || carried_out(&plan(&project), &out, options(1)).1;
+    let found = || carried_out(&plan(&project), &out, &options(1)).1;
     assert_eq!(found(), 0);
     assert_eq!(found(), 6);
     // Another title is the same runs.
@@ -147,16 +147,16 @@ fn runs_that_differ_in_one_field_are_saved_apart() {
     let project =
         Project::new(&SWEEP.replace("\"title\"", "\"merge_masks\": [false, true], \"title\""));
     let (plan, out) = (plan(&project), project.path("out"));
-    carried_out(&plan, &out, options(1));
+    carried_out(&plan, &out, &options(1));
     assert_eq!(saved(&out).len(), plan.runs.len());
 }
 
 #[test]
 fn the_manifests_experiment_gives_the_same_results() {
     let project = Project::new(SWEEP);
-    let (first, ..) = carried_out(&plan(&project), &project.path("one"), options(1));
+    let (first, ..) = carried_out(&plan(&project), &project.path("one"), &options(1));
     project.write("experiments/x.json", &first.manifest["experiment"].to_string());
-    let (second, ..) = carried_out(&plan(&project), &project.path("two"), options(1));
+    let (second, ..) = carried_out(&plan(&project), &project.path("two"), &options(1));
     assert_eq!(first.table, second.table);
     assert_eq!(first.manifest, second.manifest);
 }
@@ -165,7 +165,7 @@ fn the_manifests_experiment_gives_the_same_results() {
 fn changed_results_are_not_drawn() {
     let project = Project::new(SWEEP);
     let out = project.path("out");
-    carried_out(&plan(&project), &out, options(1)).0.write(&out).unwrap();
+    carried_out(&plan(&project), &out, &options(1)).0.write(&out).unwrap();
     assert_eq!(Results::read(&out).unwrap().sweeps(), ["processors", "hemisphere.pixels"]);
     let csv = fs::read_to_string(out.join("runs.csv")).unwrap();
     fs::write(out.join("runs.csv"), csv.replace("agreed", "greedy")).unwrap();
@@ -180,9 +180,9 @@ fn changed_results_are_not_drawn() {
 fn a_run_that_failed_stands_in_its_row_and_the_others_stay_saved() {
     let project = Project::new(SWEEP);
     let (plan, out) = (plan(&project), project.path("out"));
-    let mut endings = carry_out(&plan, &out, options(1), Arc::new(|_| {})).unwrap();
+    let mut endings = carry_out(&plan, &out, &options(1), Arc::new(|_| {})).unwrap();
     endings.runs[0] = Some(Err("nothing under way".to_owned()));
-    let results = Results::of(&plan, &endings, options(1)).unwrap();
+    let results = Results::of(&plan, &endings, On::Simulation).unwrap();
     assert_eq!(results.failures(), 1);
     let table = &results.table;
     assert_eq!(table.cell(&table.rows[0], "failure"), "nothing under way");

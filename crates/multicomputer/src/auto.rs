@@ -162,8 +162,8 @@ fn longest_chain(letters: &[Letter], later: &[Later]) -> Duration {
             *node = (*node).max(chains[index]) + later.receiver;
         } else {
             let node = &mut nodes[letter.from.index()];
-            *node += later.sender;
             chains[index] = *node + later.network;
+            *node += later.sender;
         }
     }
     nodes.into_iter().chain(chains).max().unwrap_or_default()

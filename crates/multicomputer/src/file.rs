@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
 
-use crate::network::Rung;
+use crate::network::Model;
 use crate::sourced::{Bandwidth, Bytes, Cycles, Frequency, Positive, Quantity, Sourced, Time};
 
 /// A distributed-memory machine: compute nodes and service nodes on a mesh, a torus, a crossbar or a
@@ -44,6 +44,19 @@ pub(crate) struct MachineFile {
     pub(crate) processor: ProcessorFile,
     /// How messages travel.
     pub(crate) network: NetworkFile,
+    /// What has been measured on the real machine, to stand beside what is simulated.
+    #[serde(default)]
+    pub(crate) published: PublishedFile,
+}
+
+/// Published measurements of messages between two neighbours.
+#[derive(Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields, expecting = "an object of published measurements")]
+pub(crate) struct PublishedFile {
+    /// Time of the shortest message, from sender to receiver.
+    pub(crate) latency: Option<Sourced<Quantity<Time>>>,
+    /// Bytes a second of the longest messages.
+    pub(crate) bandwidth: Option<Sourced<Quantity<Bandwidth>>>,
 }
 
 /// A two-dimensional mesh or torus; messages go along the row first, then along the column.
@@ -109,35 +122,6 @@ pub(crate) struct NetworkFile {
     /// The links. The models "wormhole", "flit" and "auto" need them.
     #[serde(default)]
     pub(crate) links: Option<LinksFile>,
-}
-
-/// A model of the network.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub(crate) enum Model {
-    /// Messages arrive at once and cost nothing.
-    Ideal,
-    /// LogGP with hops, without contention.
-    LogGp,
-    /// Worms that hold the links of their routes, message by message.
-    Wormhole,
-    /// Flits, buffers and virtual channels, cycle by cycle.
-    Flit,
-    /// The cheapest one whose answer is near enough to that of the next one.
-    Auto,
-}
-
-impl Model {
-    /// The rung of the ladder; none for "auto".
-    pub(crate) fn rung(self) -> Option<Rung> {
-        match self {
-            Model::Ideal => Some(Rung::Ideal),
-            Model::LogGp => Some(Rung::LogGp),
-            Model::Wormhole => Some(Rung::Wormhole),
-            Model::Flit => Some(Rung::Flit),
-            Model::Auto => None,
-        }
-    }
 }
 
 /// Parameters of LogGP. A message of n bytes, alone on the network, is read after

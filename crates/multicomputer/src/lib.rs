@@ -33,12 +33,12 @@ pub use cache::{CacheLevel, Caches};
 pub use fault::MachineFault;
 pub use file::machine_schema;
 pub use kernels::{KernelError, exchange, hot_spot, ping_pong};
-pub use machine::{Machine, MachineError};
+pub use machine::{Machine, MachineError, Published};
 pub use multicomputer::Multicomputer;
 pub use network::{
     Arrival, Channel, ChannelUse, Deadlock, Delivery, Flit, Foretold, Formula, Ideal,
-    LinkParameters, LogGp, LogGpParameters, Message, Network, NetworkParameters, Rung, Stall,
-    Waiting, Wormhole,
+    LinkParameters, LogGp, LogGpParameters, Message, Model, Network, NetworkParameters, Rung,
+    Stall, Waiting, Wormhole,
 };
 pub use node::{Node, Rank};
 pub use processor::Processor;
@@ -46,4 +46,4 @@ pub use record::{Letter, Record, Recorder};
 pub use replay::{Course, ReplayDeadlock, replay};
 pub use topology::{Hop, Link, Place, Position, Shape, Topology};
 pub use trace::{Item, Trace, trace_schema};
-pub use traffic::{Load, Measured, Pattern};
+pub use traffic::{Load, Measured, Pattern, fluid_bound};

@@ -17,6 +17,8 @@ const LONGEST_FLIT: f64 = 1e9;
 /// Largest line and cache, bytes: beyond them a file can only be a slip.
 const LONGEST_LINE: f64 = 65_536.0;
 const LARGEST_CACHE: f64 = 1e9;
+/// Most virtual channels a link: real routers have a handful.
+const MOST_VIRTUAL_CHANNELS: u8 = 16;
 
 /// A distributed-memory machine.
 #[derive(Clone, Debug)]
@@ -29,9 +31,20 @@ pub struct Machine {
     pub parameters: NetworkParameters,
     /// The rung of its network that the file chooses; none if that is left to be found out.
     pub rung: Option<Rung>,
+    /// What has been measured on the real machine.
+    pub published: Published,
     topology: Topology,
     compute_nodes: usize,
     service_nodes: usize,
+}
+
+/// Published measurements of messages between two neighbours.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Published {
+    /// Time of the shortest message, from sender to receiver.
+    pub latency: Option<desim::Duration>,
+    /// Bytes a second of the longest messages.
+    pub bandwidth: Option<f64>,
 }
 
 /// What cannot be meant.
@@ -143,11 +156,16 @@ fn validate(file: MachineFile) -> Result<Machine, MachineFault> {
     let (shape, hop_time) = shape(&file)?;
     let (title, processor) = (file.title, processor(file.processor)?);
     let (rung, parameters) = network(&file.network, hop_time)?;
+    let published = Published {
+        latency: file.published.latency.map(|latency| latency.value.duration()),
+        bandwidth: file.published.bandwidth.map(|bandwidth| bandwidth.value.si),
+    };
     Ok(Machine {
         title,
         processor,
         parameters,
         rung,
+        published,
         topology: Topology::new(shape),
         compute_nodes: file.compute_nodes.value.get().into(),
         service_nodes: file.service_nodes.value.get().into(),
@@ -231,11 +249,16 @@ fn links(file: &LinksFile, software: &LogGpParameters) -> Result<LinkParameters,
         let message = format!("found {flit} B; expected a whole number of bytes, at least 1");
         return refuse("network.links.flit.value", message);
     }
+    let virtual_channels = file.virtual_channels.value.get();
+    if virtual_channels > MOST_VIRTUAL_CHANNELS {
+        let message = format!("found {virtual_channels}; expected 1 to {MOST_VIRTUAL_CHANNELS}");
+        return refuse("network.links.virtual_channels.value", message);
+    }
     let links = LinkParameters {
         bandwidth,
         flit_bytes: flit as u64,
         buffer_flits: file.buffer_flits.value.get().into(),
-        virtual_channels: file.virtual_channels.value.get().into(),
+        virtual_channels: virtual_channels.into(),
     };
     // Room in a buffer counts again a cycle after a flit has crossed the next hop.
     let least = links.cycles(software.hop_time) + 1;

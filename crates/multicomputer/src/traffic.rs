@@ -4,6 +4,7 @@ use desim::{Duration, Time};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
+use crate::network::LinkParameters;
 use crate::replay::Course;
 use crate::topology::{Place, Topology};
 use crate::trace::{Item, Trace};
@@ -74,6 +75,30 @@ impl Pattern {
             }
         }
     }
+}
+
+/// Bytes a second that every node could send if messages were a fluid: then one channel has as much as
+/// it can carry. A network without infinite buffers takes less.
+pub fn fluid_bound(
+    pattern: Pattern,
+    topology: &Topology,
+    nodes: usize,
+    links: &LinkParameters,
+) -> f64 {
+    // Each channel's part of what a node sends, added over all nodes.
+    let mut shares = vec![0.0; topology.graph().edge_count()];
+    let mut outs = vec![0.0; nodes];
+    for from in 0..nodes {
+        let partners = pattern.partners(topology, nodes, from);
+        let share = 1.0 / partners.len() as f64;
+        for to in partners.into_iter().filter(|&to| to != from) {
+            outs[to] += share;
+            for hop in topology.route(Place::new(from), Place::new(to)) {
+                shares[hop.link.index()] += share;
+            }
+        }
+    }
+    links.bandwidth / shares.into_iter().chain(outs).fold(1.0, f64::max)
 }
 
 /// A load of synthetic traffic. Every node sends messages of one size at random moments, at a rate of

@@ -175,6 +175,10 @@ fn faults_name_place_value_and_what_was_expected() {
             "m.json: network.links.bandwidth.value: found 10 MB/s; expected at least 65 MB/s, the bandwidth of the message layer",
         ),
         (
+            with("/network/links/virtual_channels/value", json!(17)),
+            "m.json: network.links.virtual_channels.value: found 17; expected 1 to 16",
+        ),
+        (
             with("/network/links/flit/value", json!("0.5 B")),
             "m.json: network.links.flit.value: found 0.5 B; expected a whole number of bytes, at least 1",
         ),
@@ -205,7 +209,7 @@ fn faults_of_the_text_name_line_and_column() {
     };
     assert_eq!(message(""), "m.json:1:0: EOF while parsing a value");
     assert_eq!(message("{\n  \"title\": }"), "m.json:2:12: title: expected value");
-    assert_eq!(message(&format!("{text}}}")), "m.json:148:1: trailing characters");
+    assert_eq!(message(&format!("{text}}}")), "m.json:160:1: trailing characters");
     assert_eq!(
         message(&text.replace("\"50 MHz\"", "\"50 m\"")),
         "m.json:33:21: processor.clock.value: found \"50 m\" with the unit \"m\"; \

@@ -6,10 +6,11 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
 
-use desim::{Duration, Time};
+use desim::{Duration, Simulation, Time};
 use multicomputer::{
-    Channel, Course, Flit, Item, LinkParameters, Load, LogGpParameters, Machine, Measured, Network,
-    NetworkParameters, Pattern, Place, Rung, Shape, Topology, Trace, exchange, ping_pong, replay,
+    Channel, Course, Item, LinkParameters, Load, LogGpParameters, Machine, Measured, Multicomputer,
+    Network, NetworkParameters, Pattern, Place, Rung, Shape, Topology, Trace, exchange, ping_pong,
+    replay,
 };
 use proptest::prelude::*;
 
@@ -124,15 +125,7 @@ fn an_exchange_of_neighbours_costs_the_same_with_and_without_contention() {
 /// A network without software, whose cycle is 1 ns, and whose hop takes `cycles` of them.
 fn bare(flit_bytes: u64, cycles: u64, virtual_channels: u32) -> NetworkParameters {
     let bandwidth = flit_bytes as f64 * 1e9;
-    let zero = Duration::ZERO;
-    let software = LogGpParameters {
-        send_overhead: zero,
-        latency: zero,
-        hop_time: Duration(1_000) * cycles,
-        receive_overhead: zero,
-        gap: zero,
-        bandwidth,
-    };
+    let software = LogGpParameters::bare(Duration(1_000) * cycles, bandwidth);
     let links = LinkParameters { bandwidth, flit_bytes, buffer_flits: 8, virtual_channels };
     NetworkParameters { software: Some(software), links: Some(links) }
 }
@@ -309,11 +302,23 @@ fn one_at_a_time(
 }
 
 #[test]
-fn a_network_of_flits_needs_no_message_to_be_dropped() {
-    let topology = Topology::new(Shape::Mesh { width: 2, height: 1 });
-    let parameters = bare(4, 2, 1);
-    let (software, links) = (parameters.software.unwrap(), parameters.links.unwrap());
-    let mut network = Flit::new(software, links, &topology);
-    assert_eq!(network.next_event(), None);
-    assert_eq!(network.advance(Time(5), &mut Vec::new()), Ok(()));
+fn a_program_in_deadlock_is_halted_and_told_why() {
+    let ring = machine("fixtures/ring-of-4");
+    let simulation = Simulation::new();
+    let nodes = Multicomputer::<()>::new(&simulation.handle(), &ring, 3).unwrap();
+    for rank in 0..4 {
+        let node = nodes.node(rank);
+        simulation.handle().spawn(format!("node {rank}"), async move {
+            node.send((rank + 2) % 4, 1_000_000, ()).await;
+            node.wait().await;
+        });
+    }
+    let stalled = simulation.run().unwrap_err();
+    let message = stalled.to_string();
+    assert!(
+        message.starts_with("stalled at 200 µs: deadlock in the network: a message ("),
+        "{message}"
+    );
+    assert!(message.ends_with("node 3 waits for mail at node 3"), "{message}");
+    assert_eq!(nodes.deadlock().unwrap().circle.len(), 4);
 }

@@ -2,11 +2,11 @@
 
 use std::fmt::Write;
 
-use multicomputer::NetworkModel;
+use multicomputer::Rung;
 use serde::Serialize;
 
 use crate::cpu::{Spread, rounded, timed};
-use crate::exchange::{BYTES, COLUMNS, ROWS, exchange, neighbours, paragon, rungs};
+use crate::exchange::{BYTES, COLUMNS, ROWS, RUNGS, exchange, neighbours, paragon};
 use crate::peer::{Peer, Program, Recipe};
 
 /// SimGrid's harness.
@@ -51,26 +51,25 @@ type Measured = (u64, f64, f64);
 /// # Errors
 /// What is wrong with SimGrid's harness.
 pub fn measure(simgrid: &Program, rounds: u16) -> Result<Vec<Row>, String> {
-    let rungs = rungs();
     let mut version = String::new();
-    let mut measured: Vec<Vec<Measured>> = vec![Vec::new(); rungs.len() + MODELS.len()];
+    let mut measured: Vec<Vec<Measured>> = vec![Vec::new(); RUNGS.len() + MODELS.len()];
     for round in 0..=rounds {
         for (network, measured) in measured.iter_mut().enumerate() {
-            let figures = match rungs.get(network) {
-                Some((_, model)) => ours(model),
-                None => theirs(simgrid, MODELS[network - rungs.len()], &mut version)?,
+            let figures = match RUNGS.get(network) {
+                Some(&rung) => ours(rung),
+                None => theirs(simgrid, MODELS[network - RUNGS.len()], &mut version)?,
             };
             if round > 0 {
                 measured.push(figures);
             }
         }
     }
-    let names = rungs.iter().map(|(name, _)| format!("Virtwall, {name}"));
+    let names = RUNGS.iter().map(|rung| format!("Virtwall, {rung}"));
     let names = names.chain(MODELS.map(|model| format!("SimGrid {version}, {model}")));
     let rate = |measured: &Vec<Measured>| {
         Spread::of(measured.iter().map(|(messages, _, cpu)| *messages as f64 / cpu).collect())
     };
-    let default = rate(&measured[rungs.len()]).median;
+    let default = rate(&measured[RUNGS.len()]).median;
     let rows = names.zip(&measured).map(|(network, measured)| {
         let ((messages, virtual_seconds, _), rate) = (measured[0], rate(measured));
         Row {
@@ -86,8 +85,8 @@ pub fn measure(simgrid: &Program, rounds: u16) -> Result<Vec<Row>, String> {
     Ok(rows.collect())
 }
 
-fn ours(model: &NetworkModel) -> Measured {
-    let ((messages, end), seconds) = timed(|| exchange(model, ROUNDS));
+fn ours(rung: Rung) -> Measured {
+    let ((messages, end), seconds) = timed(|| exchange(rung, ROUNDS));
     (messages, end.as_seconds_f64(), seconds)
 }
 
@@ -103,13 +102,9 @@ fn theirs(simgrid: &Program, model: &str, version: &mut String) -> Result<Measur
 /// The exchange as `simgrid.cpp` reads it. SimGrid has no time of the processor for a message: the
 /// Paragon's is part of its latency there.
 fn problem() -> String {
-    let (bandwidth, latency, hop) = match paragon().network {
-        NetworkModel::LogGp(p) => {
-            let latency = p.send_overhead + p.latency + p.receive_overhead;
-            (p.bandwidth, latency.as_seconds_f64(), p.hop_time.as_seconds_f64())
-        }
-        _ => (0.0, 0.0, 0.0),
-    };
+    let p = paragon().parameters.software.expect("the Paragon's file has them");
+    let latency = (p.send_overhead + p.latency + p.receive_overhead).as_seconds_f64();
+    let (bandwidth, hop) = (p.bandwidth, p.hop_time.as_seconds_f64());
     let mut text = format!("{COLUMNS} {ROWS} {ROUNDS} {BYTES} {bandwidth} {latency} {hop}\n");
     for to in (0..COLUMNS * ROWS).flat_map(neighbours) {
         writeln!(text, "{to}").expect("writing to a String does not fail");

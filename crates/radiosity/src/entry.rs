@@ -16,6 +16,13 @@ pub(crate) struct Entry {
     columns: [Vec<(u32, u64)>; 2],
 }
 
+/// Rays of a bundle that all go the same ways, and where from.
+struct Comers<'a> {
+    lattice: &'a Lattice<'a>,
+    rays: &'a Rays,
+    ways: [Way; 3],
+}
+
 impl Entry {
     /// Find the cells in which rays that all go the same `ways` enter a block from outside. Returns
     /// those that never do.
@@ -40,7 +47,7 @@ impl Entry {
                 }
             }
             if through != 0 {
-                self.enter_by(simd, lattice, rays, ways, (axis, plane), through);
+                self.enter_by(simd, &Comers { lattice, rays, ways }, (axis, plane), through);
             }
         }
         self.cells.iter().fold(cast, |never, (_, rays)| never & !rays)
@@ -48,34 +55,71 @@ impl Entry {
 
     /// Find the cells of rays that complete their entry at a plane.
     #[inline(always)]
-    fn enter_by<S: Simd>(
-        &mut self,
-        simd: S,
-        lattice: &Lattice,
-        rays: &Rays,
-        ways: [Way; 3],
-        side: (usize, u32),
-        cast: u64,
-    ) {
+    fn enter_by<S: Simd>(&mut self, simd: S, comers: &Comers, side: (usize, u32), cast: u64) {
         let (axis, plane) = side;
         let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
         let [columns, rows] = &mut self.columns;
-        for (axis, cells) in [(u, &mut *columns), (v, &mut *rows)] {
-            cells.clear();
-            let crossed = |plane: u32| lattice.crossed(simd, rays, (axis, plane), side);
-            part(lattice, axis, ways[axis], cast, crossed, cells);
-        }
+        comers.part(simd, u, side, cast, columns);
+        comers.part(simd, v, side, cast, rows);
         let mut cell = [0; 3];
-        cell[axis] = if ways[axis] == Way::Up { plane } else { plane - 1 };
+        cell[axis] = if comers.ways[axis] == Way::Up { plane } else { plane - 1 };
         for &(i, in_column) in columns.iter() {
             for &(j, in_row) in rows.iter() {
                 (cell[u], cell[v]) = (i, j);
                 let rays = in_column & in_row;
-                if rays != 0 && lattice.block.contains(cell) {
+                if rays != 0 && comers.lattice.block.contains(cell) {
                     self.cells.push((cell, rays));
                 }
             }
         }
+    }
+}
+
+impl Comers<'_> {
+    /// Part rays by the cell of an axis that they have come to when they enter by a side.
+    #[inline(always)]
+    fn part<S: Simd>(
+        &self,
+        simd: S,
+        axis: usize,
+        side: (usize, u32),
+        cast: u64,
+        cells: &mut Vec<(u32, u64)>,
+    ) {
+        cells.clear();
+        let start = self.lattice.start[axis];
+        if self.ways[axis] == Way::Level {
+            cells.push((start, cast));
+            return;
+        }
+        let up = self.ways[axis] == Way::Up;
+        // From the block's first cell on their way to its last; there is none past the grid's last.
+        let (low, high) = (self.lattice.block.low[axis], self.lattice.block.high[axis]);
+        let last = if up { self.lattice.grid.cells()[axis] - 1 } else { 0 };
+        let (mut cell, end) =
+            if up { (start.max(low), high - 1) } else { (start.min(high - 1), low) };
+        let mut rest = cast;
+        if cell != start {
+            rest &= self.into(simd, axis, cell, side);
+        }
+        loop {
+            let next = if up { cell + 1 } else { cell.saturating_sub(1) };
+            let beyond = if cell == last { 0 } else { rest & self.into(simd, axis, next, side) };
+            if rest != beyond {
+                cells.push((cell, rest & !beyond));
+            }
+            if cell == end || beyond == 0 {
+                return;
+            }
+            (cell, rest) = (next, beyond);
+        }
+    }
+
+    /// The rays that have crossed into a cell of an axis when they enter by a side.
+    #[inline(always)]
+    fn into<S: Simd>(&self, simd: S, axis: usize, cell: u32, side: (usize, u32)) -> u64 {
+        let plane = if self.ways[axis] == Way::Up { cell } else { cell + 1 };
+        self.lattice.crossed(simd, self.rays, (axis, plane), side)
     }
 }
 
@@ -94,39 +138,4 @@ fn sides_ahead(lattice: &Lattice, ways: [Way; 3]) -> Option<[Option<u32>; 3]> {
         };
     }
     Some(sides)
-}
-
-/// Part rays by the cell of an axis that they have come to, given who has crossed which plane.
-#[inline(always)]
-fn part(
-    lattice: &Lattice,
-    axis: usize,
-    way: Way,
-    cast: u64,
-    crossed: impl Fn(u32) -> u64,
-    cells: &mut Vec<(u32, u64)>,
-) {
-    let start = lattice.start[axis];
-    if way == Way::Level {
-        cells.push((start, cast));
-        return;
-    }
-    let up = way == Way::Up;
-    // From the block's first cell on their way to its last; there is none past the grid's last.
-    let (low, high) = (lattice.block.low[axis], lattice.block.high[axis]);
-    let last = if up { lattice.grid.cells()[axis] - 1 } else { 0 };
-    let (mut cell, end) = if up { (start.max(low), high - 1) } else { (start.min(high - 1), low) };
-    let into = |cell: u32| crossed(if up { cell } else { cell + 1 });
-    let mut rest = if cell == start { cast } else { cast & into(cell) };
-    loop {
-        let next = if up { cell + 1 } else { cell.saturating_sub(1) };
-        let beyond = if cell == last { 0 } else { rest & into(next) };
-        if rest != beyond {
-            cells.push((cell, rest & !beyond));
-        }
-        if cell == end || beyond == 0 {
-            return;
-        }
-        (cell, rest) = (next, beyond);
-    }
 }

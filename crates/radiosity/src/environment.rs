@@ -102,6 +102,10 @@ impl LocalEnvironment {
             Bounds::of(corners).widened(widen).intersection(&around.widened(widen))
         };
         environment.tree = Tree::new(&met.iter().map(boxed).collect::<Vec<_>>());
+        // It stays as it is: what growing lists kept in reserve is a third of them.
+        environment.patches.shrink_to_fit();
+        environment.pieces.shrink_to_fit();
+        environment.slots.shrink_to_fit();
         environment
     }
 

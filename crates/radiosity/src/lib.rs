@@ -51,7 +51,7 @@ pub use hemisphere::{Hemisphere, HemisphereError, HemisphereKind, MOST_PIXELS};
 pub use light::Light;
 pub use mask::Mask;
 pub use mtl::DEFAULT_REFLECTANCE;
-pub use obj::load_obj;
+pub use obj::{load_obj, load_obj_from};
 pub use picture::{Exposure, Picture, PictureError, PictureOptions, render, studio_light};
 pub use plain::{End, cast, shoot_plainly};
 pub use scene::{Face, Material, Plane, Polygon, Rgb, Scene};

@@ -44,7 +44,20 @@ impl Light {
         number: u32,
         patch: u32,
     ) -> Source {
-        let power = std::mem::take(&mut self.unshot[patch as usize]);
+        let source = self.source(space, environment, number, patch);
+        self.unshot[patch as usize] = Rgb::ZERO;
+        source
+    }
+
+    /// The source that a patch of environment `number` would be now.
+    pub fn source(
+        &self,
+        space: &Space,
+        environment: &LocalEnvironment,
+        number: u32,
+        patch: u32,
+    ) -> Source {
+        let power = self.unshot[patch as usize];
         let geometry = environment.patches[patch as usize];
         Source {
             environment: number,

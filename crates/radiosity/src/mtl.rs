@@ -10,7 +10,7 @@ use tobj::MTLLoadResult;
 
 use crate::scene::{Material, Rgb};
 use crate::scene_error::SceneError;
-use crate::text;
+use crate::text::{self, Reader};
 use crate::warning::{WarningKind, Warnings};
 
 /// Reflectance of a material that states none (no `Kd`), and of the material that stands in for a
@@ -40,12 +40,12 @@ pub(crate) struct Library {
 
 impl Library {
     /// Reads a file, once. One that cannot be read is a warning; one that makes no sense, a problem.
-    pub(crate) fn load(&mut self, path: &Path) -> MTLLoadResult {
+    pub(crate) fn load(&mut self, path: &Path, reader: Reader) -> MTLLoadResult {
         let nothing = Ok(Default::default());
         if self.problem.is_some() || !self.read.insert(path.to_owned()) {
             return nothing;
         }
-        match text::read(path) {
+        match text::read(path, reader) {
             Ok(text) => match plain(path, &text) {
                 Ok(plain) => return tobj::load_mtl_buf(&mut plain.as_bytes()),
                 Err(problem) => self.problem = Some(problem),

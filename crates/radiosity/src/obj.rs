@@ -7,6 +7,7 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::{fs, io};
 
 use glam::DVec3;
 use tobj::{LoadError, LoadOptions, Model};
@@ -26,7 +27,18 @@ use crate::warning::{WarningKind, Warnings};
 /// A file that cannot be read, or that says what cannot be meant: the message names file, line and
 /// value, and says what was expected.
 pub fn load_obj(path: &Path) -> Result<(Scene, Warnings), SceneError> {
-    let text = text::read(path)
+    load_obj_from(path, &|path| fs::read(path))
+}
+
+/// The same with files whose bytes `reader` gives, which need not lie on a disk.
+///
+/// # Errors
+/// As for [`load_obj`].
+pub fn load_obj_from(
+    path: &Path,
+    reader: &dyn Fn(&Path) -> io::Result<Vec<u8>>,
+) -> Result<(Scene, Warnings), SceneError> {
+    let text = text::read(path, reader)
         .map_err(|source| SceneError::Unreadable { path: path.to_owned(), source })?;
     let text = plain(&text);
     let folder = path.parent().unwrap_or(Path::new(""));
@@ -34,7 +46,7 @@ pub fn load_obj(path: &Path) -> Result<(Scene, Warnings), SceneError> {
 
     let mut lines = Lines { rest: text.as_bytes(), taken: 0 };
     let loaded = tobj::load_obj_buf(&mut lines, &LoadOptions::default(), |name| {
-        library.borrow_mut().load(&folder.join(name))
+        library.borrow_mut().load(&folder.join(name), reader)
     });
     let mut library = library.into_inner();
     if let Some(problem) = library.problem {

@@ -1,14 +1,16 @@
 //! Text files, and places in them.
 
-use std::fs;
 use std::io::{self, BufRead, Read};
 use std::path::Path;
 
 use crate::scene_error::SceneError;
 
+/// How the bytes of a file are read, wherever they are.
+pub(crate) type Reader<'a> = &'a dyn Fn(&Path) -> io::Result<Vec<u8>>;
+
 /// A file as text. Bytes that are not UTF-8 become U+FFFD: names in old encodings do no harm.
-pub(crate) fn read(path: &Path) -> io::Result<String> {
-    let bytes = fs::read(path)?;
+pub(crate) fn read(path: &Path, reader: Reader) -> io::Result<String> {
+    let bytes = reader(path)?;
     Ok(String::from_utf8_lossy(&bytes).trim_start_matches('\u{feff}').to_owned())
 }
 

@@ -3,7 +3,8 @@
 //!
 //! Not Soda Hall's plan, but its manner. Rooms along all four fronts; inside them a ring of corridors
 //! and a spine; between these, rooms without windows, two stair wells, and an atrium through all
-//! floors. Low floors hold a few halls and laboratories, high floors many small offices.
+//! floors. Low floors hold a few halls and laboratories, high floors many small offices. A building
+//! of more floors than five begins anew after every fifth, inside the same shafts.
 
 mod lights;
 mod space;
@@ -13,7 +14,6 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 use crate::obj::{
-    Cuboid,
     Facing::{self, East, North, South, West},
     Obj, Opening, Span,
 };
@@ -89,17 +89,21 @@ const STOREYS: [Storey; 5] = [
     Storey { south: 18, north: 18, ends: 5, inner: Inner::Rows(4), back: 5 },
 ];
 
-/// Draws the scene.
-pub fn draw(seed: u64) -> Obj {
+/// Floors of the paper's building.
+pub const FLOORS: u16 = STOREYS.len() as u16;
+
+/// Draws the scene with so many floors.
+pub fn draw(floors: u16, seed: u64) -> Obj {
     let mut obj = Obj::default();
     let mut rng = stream(seed, "walls");
+    let floors = usize::from(floors);
     let plans: Vec<Plan> =
-        STOREYS.iter().enumerate().map(|(level, storey)| plan(level, storey, &mut rng)).collect();
+        (0..floors).map(|level| plan(Plan::new(level, floors), &mut rng)).collect();
     for plan in &plans {
         plan.draw(&mut obj);
     }
     for x in [column::STAIRS, mirrored(column::STAIRS)] {
-        stairs::draw(&mut obj, x, band::DEEP);
+        stairs::draw(&mut obj, x, band::DEEP, floors);
     }
     lights::draw(&mut obj, &plans);
     obj
@@ -110,9 +114,10 @@ fn mirrored([a, b]: Span) -> Span {
     [SIZE[0] - b, SIZE[0] - a]
 }
 
-/// Lays out one storey.
-fn plan(level: usize, storey: &Storey, rng: &mut ChaCha8Rng) -> Plan {
-    let mut layout = Layout::with_corridors(level, rng);
+/// Lays out one storey, still empty.
+fn plan(plan: Plan, rng: &mut ChaCha8Rng) -> Plan {
+    let storey = &STOREYS[plan.level % STOREYS.len()];
+    let mut layout = Layout::with_corridors(plan, rng);
     layout.shafts();
     let [south, north] = [layout.south, layout.north];
     let length = [WALL, SIZE[0] - WALL];
@@ -145,8 +150,7 @@ struct Layout<'a> {
 
 impl<'a> Layout<'a> {
     /// A ring of corridors and the spine, which the atrium interrupts.
-    fn with_corridors(level: usize, rng: &'a mut ChaCha8Rng) -> Layout<'a> {
-        let mut plan = Plan::new(level);
+    fn with_corridors(mut plan: Plan, rng: &'a mut ChaCha8Rng) -> Layout<'a> {
         let length = [WALL, SIZE[0] - WALL];
         let south = plan.add(Use::Corridor, length, band::SOUTH_CORRIDOR);
         let north = plan.add(Use::Corridor, length, band::NORTH_CORRIDOR);
@@ -259,13 +263,6 @@ fn partition(rng: &mut ChaCha8Rng, [from, to]: Span, count: usize) -> Vec<Span> 
 
 /// Elevation of a storey's floor, mm.
 fn elevation(level: usize) -> i32 {
-    // There are five levels: no truncation.
+    // Levels fit 16 bits: no truncation.
     level as i32 * STOREY
-}
-
-/// The hollow of a space: shafts reach up to the floor above, rooms to their ceiling.
-fn hollow(usage: Use, level: usize, x: Span, y: Span) -> Cuboid {
-    let floor = elevation(level);
-    let open_above = usage.is_shaft() && level + 1 < STOREYS.len();
-    Cuboid { x, y, z: [floor, floor + if open_above { STOREY } else { CLEAR }] }
 }

@@ -14,7 +14,7 @@ mod palette;
 mod rooms;
 mod stream;
 
-use std::{fmt, str::FromStr};
+use std::{fmt, ops::RangeInclusive, str::FromStr};
 
 pub use rooms::MOST_TABLES;
 
@@ -32,6 +32,8 @@ pub enum SceneKind {
 /// A scene as the text of its two files.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneText {
+    /// Name of the files.
+    pub name: String,
     /// The OBJ file; it refers to `<name>.mtl`.
     pub obj: String,
     /// The MTL file: reflectance in `Kd`, emitted radiosity in W/m² in `Ke`.
@@ -47,7 +49,7 @@ pub fn make(kind: SceneKind, seed: u64) -> SceneText {
     let obj = match kind {
         SceneKind::Office => office::draw(seed),
         SceneKind::Rooms => return make_rooms(rooms::TABLES, seed),
-        SceneKind::Building => building::draw(seed),
+        SceneKind::Building => building::draw(building::FLOORS, seed),
     };
     obj.into_text(kind.name(), seed)
 }
@@ -57,6 +59,16 @@ pub fn make(kind: SceneKind, seed: u64) -> SceneText {
 pub fn make_rooms(tables: u32, seed: u64) -> SceneText {
     rooms::draw(tables.min(MOST_TABLES)).into_text(SceneKind::Rooms.name(), seed)
 }
+
+/// Makes the building with another number of floors, with 200 lights on each; its files are called
+/// `building-<floors>`. None beyond [`FLOORS`].
+pub fn make_building(floors: u16, seed: u64) -> Option<SceneText> {
+    let draw = || building::draw(floors, seed).into_text(&format!("building-{floors}"), seed);
+    FLOORS.contains(&floors).then(draw)
+}
+
+/// How many floors a building may have: stairs lead from one to the next at least.
+pub const FLOORS: RangeInclusive<u16> = 2..=1000;
 
 impl SceneKind {
     /// The three scenes in the paper's order.

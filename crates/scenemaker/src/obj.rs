@@ -234,7 +234,7 @@ impl Obj {
         for material in &self.materials {
             put(&mut mtl, format_args!("\n{material}"));
         }
-        SceneText { obj, mtl }
+        SceneText { name: name.to_owned(), obj, mtl }
     }
 
     fn vertex(&mut self, point: Point) -> usize {

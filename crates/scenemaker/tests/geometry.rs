@@ -9,28 +9,30 @@ use radiosity::glam::{DVec2, DVec3};
 use radiosity::{Polygon, Scene, load_obj};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use scenemaker::{MOST_TABLES, SceneKind, SceneText, make, make_rooms};
+use scenemaker::{FLOORS, MOST_TABLES, SceneKind, SceneText, make, make_building, make_rooms};
 
 const SEEDS: [u64; 3] = [1996, 7, u64::MAX];
 
 /// A scene as any program would read it, with nothing to remark on. World coordinates are local
 /// ones plus the scene's origin.
 fn load(kind: SceneKind, seed: u64) -> Scene {
-    read(kind, seed, make(kind, seed))
+    read(&make(kind, seed))
 }
 
-fn read(kind: SceneKind, seed: u64, text: SceneText) -> Scene {
+fn read(SceneText { name, obj, mtl }: &SceneText) -> Scene {
     let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join(format!("{kind}.obj"));
-    fs::write(&path, &text.obj).unwrap();
-    fs::write(folder.path().join(format!("{kind}.mtl")), text.mtl).unwrap();
+    let path = folder.path().join(format!("{name}.obj"));
+    fs::write(&path, obj).unwrap();
+    fs::write(folder.path().join(format!("{name}.mtl")), mtl).unwrap();
     let (scene, warnings) = load_obj(&path).unwrap();
-    assert!(warnings.is_empty(), "{kind} {seed}: {:?}", warnings.iter().next());
-    let faces = text.obj.lines().filter(|line| line.starts_with("f ")).count();
-    assert_eq!(scene.polygons.len(), faces, "{kind} {seed}");
+    assert!(warnings.is_empty(), "{name}: {:?}", warnings.iter().next());
+    let faces = obj.lines().filter(|line| line.starts_with("f ")).count();
+    assert_eq!(scene.polygons.len(), faces, "{name}");
     scene
 }
 
+/// The three scenes under every seed, the lowest building, and one that begins anew above its fifth
+/// floor.
 fn each(mut check: impl FnMut(SceneKind, u64, &Scene)) {
     for kind in SceneKind::ALL {
         for seed in SEEDS {
@@ -39,7 +41,10 @@ fn each(mut check: impl FnMut(SceneKind, u64, &Scene)) {
     }
     // Rooms with other numbers of tables; the seed changes nothing there.
     for tables in [0, 1, 7, MOST_TABLES] {
-        check(SceneKind::Rooms, 1, &read(SceneKind::Rooms, 1, make_rooms(tables, 1)));
+        check(SceneKind::Rooms, 1, &read(&make_rooms(tables, 1)));
+    }
+    for floors in [2, 7] {
+        check(SceneKind::Building, 7, &read(&make_building(floors, 7).unwrap()));
     }
 }
 
@@ -186,6 +191,24 @@ fn rooms_are_equal() {
     }
     assert_eq!(counts.len(), 32);
     assert!(counts.values().all(|count| Some(count) == counts.values().next()), "{counts:?}");
+}
+
+/// Two floors are the fewest that stairs can join; five are the paper's.
+#[test]
+fn a_building_may_have_other_floors() {
+    assert!(make_building(FLOORS.start() - 1, 1).is_none());
+    assert!(make_building(FLOORS.end() + 1, 1).is_none());
+    let faces = |text: &SceneText| text.obj.lines().skip(3).collect::<String>();
+    assert_eq!(faces(&make_building(5, 7).unwrap()), faces(&make(SceneKind::Building, 7)));
+    let count = |floors, start| {
+        let text = make_building(floors, 7).unwrap();
+        assert_eq!(text.name, format!("building-{floors}"));
+        text.obj.lines().filter(|line| line.starts_with(start)).count()
+    };
+    assert_eq!(count(20, "o light"), 4_000);
+    // Walls differ in their windows; the top floor alone has a ceiling over its shafts.
+    let ratio = count(20, "f ") as f64 / count(5, "f ") as f64;
+    assert!((ratio - 4.0).abs() < 0.1, "{ratio}");
 }
 
 /// One thousand lights whatever the walls; each floor has more than the one below; none is cut by

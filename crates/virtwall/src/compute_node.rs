@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use multicomputer::Rank;
-use radiosity::{Operation, Shot, Side, Work, shoot};
+use radiosity::{Operation, Shot, Work};
 
 use crate::counts::Counts;
 use crate::kept_shots::KeptShots;
@@ -41,6 +41,21 @@ impl Shared {
     /// The service node's rank follows those of the compute nodes.
     pub(crate) fn service_node(&self) -> Rank {
         self.processors
+    }
+
+    /// Have a shot that this run will ask for cast ahead by threads that have nothing else to do, and
+    /// those that it leads to as well. Where its rays end does not depend on what happens meanwhile.
+    fn foresee(self: &Arc<Self>, parcel: &Parcel) {
+        if !self.kept.foresee(parcel) {
+            return;
+        }
+        let (shared, parcel) = (Arc::clone(self), parcel.clone());
+        self.kept.helpers().add(Box::new(move || {
+            let Shared { problem, kept, .. } = &*shared;
+            kept.cast_ahead(problem, &parcel, |shot| {
+                problem.onward(&parcel, shot).for_each(|parcel| shared.foresee(&parcel));
+            });
+        }));
     }
 }
 
@@ -93,12 +108,15 @@ impl ComputeNode {
     async fn choose_best_source(&mut self, process: &impl Process) -> Option<Parcel> {
         let rules = &self.shared.rules;
         let received = self.queue.best(rules.selection);
-        let (local, mut scan) =
-            if self.selecting { self.region.best_patch() } else { (None, Work::NONE) };
+        let (local, mut scan) = if self.selecting {
+            (self.region.best_patch(), self.region.scan())
+        } else {
+            (None, Work::NONE)
+        };
         scan.count(Operation::QueueScan, self.queue.len() as u64);
         self.tally.work += scan;
         process.compute(|| ((), scan)).await;
-        match (received, local) {
+        let choice = match (received, local) {
             (Some((_, place)), None) => Some(self.take_received(place)),
             (Some((queued, place)), Some((value, ..)))
                 if queued > value || queued == value && rules.ties == Ties::ReceivedFirst =>
@@ -110,6 +128,15 @@ impl ComputeNode {
                 Some(self.region.take(holding, patch))
             }
             (None, None) => None,
+        };
+        self.foresee_local();
+        choice
+    }
+
+    /// The best local patches that are left will be shot sooner or later.
+    fn foresee_local(&mut self) {
+        if self.selecting && self.shared.kept.helpers().want_jobs() {
+            self.region.new_best_sources(|parcel| self.shared.foresee(&parcel));
         }
     }
 
@@ -122,15 +149,10 @@ impl ComputeNode {
     }
 
     /// §4.2.3: cast the rays of the pixels that are still true, and update radiosities.
-    async fn compute_illumination(&mut self, process: &impl Process, source: &Parcel) -> Arc<Shot> {
+    async fn compute_illumination(&mut self, process: &impl Process, source: &Parcel) -> Shot {
         let Shared { problem, kept, on_shot, .. } = &*self.shared;
         let kernel = || {
-            let environment = &problem.environments[source.environment as usize];
-            let cast = || {
-                let Parcel { source, mask, .. } = source;
-                shoot(&problem.space, environment, &problem.hemisphere, source, mask)
-            };
-            let shot = kept.shot(source, cast);
+            let shot = kept.shot(problem, source);
             let work = shot.work;
             (shot, work)
         };
@@ -149,18 +171,12 @@ impl ComputeNode {
         parcel: &Parcel,
         shot: &Shot,
     ) {
-        for (side, outgoing) in Side::ALL.into_iter().zip(&shot.outgoing) {
-            let Some(outgoing) = outgoing else { continue };
-            let environment = self.shared.problem.decomposition.neighbour(parcel.environment, side);
-            let onward = Parcel {
-                environment,
-                source: parcel.source,
-                mask: outgoing.mask.clone(),
-                form_factor: outgoing.form_factor,
-            };
+        let shared = Arc::clone(&self.shared);
+        for onward in shared.problem.onward(parcel, shot) {
+            shared.foresee(&onward);
             self.tally.parcels_sent += 1;
             self.tally.sent += onward.source.power * onward.form_factor;
-            let owner = self.shared.owners[environment as usize];
+            let owner = shared.owners[onward.environment as usize];
             if owner == process.rank() {
                 self.enqueue(onward);
             } else {
@@ -233,7 +249,7 @@ impl ComputeNode {
         process.send(to, message.encode()).await;
     }
 
-    fn sums(&self, rank: Rank) -> Sums {
+    fn sums(&mut self, rank: Rank) -> Sums {
         Sums {
             rank: rank as u32,
             unshot: self.region.unshot_power().element_sum(),

@@ -63,7 +63,7 @@ pub struct Sums {
 /// Bytes that are not a message.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 #[error("not a message: {0}")]
-pub struct DecodeError(&'static str);
+pub struct DecodeError(pub(crate) &'static str);
 
 impl Message {
     /// The bytes that travel, little-endian.
@@ -163,7 +163,7 @@ fn decode_parcel(from: &mut Reader) -> Result<Parcel, DecodeError> {
 }
 
 /// Bytes not read yet.
-struct Reader<'a>(&'a [u8]);
+pub(crate) struct Reader<'a>(pub(crate) &'a [u8]);
 
 impl Reader<'_> {
     fn take<const N: usize>(&mut self) -> Result<[u8; N], DecodeError> {
@@ -172,19 +172,23 @@ impl Reader<'_> {
         Ok(*taken)
     }
 
-    fn byte(&mut self) -> Result<u8, DecodeError> {
+    pub(crate) fn byte(&mut self) -> Result<u8, DecodeError> {
         self.take().map(|[byte]| byte)
     }
 
-    fn u32(&mut self) -> Result<u32, DecodeError> {
+    pub(crate) fn u32(&mut self) -> Result<u32, DecodeError> {
         self.take().map(u32::from_le_bytes)
+    }
+
+    pub(crate) fn u64(&mut self) -> Result<u64, DecodeError> {
+        self.take().map(u64::from_le_bytes)
     }
 
     fn f32(&mut self) -> Result<f32, DecodeError> {
         self.take().map(f32::from_le_bytes)
     }
 
-    fn f64(&mut self) -> Result<f64, DecodeError> {
+    pub(crate) fn f64(&mut self) -> Result<f64, DecodeError> {
         self.take().map(f64::from_le_bytes)
     }
 

@@ -1,9 +1,10 @@
 //! A scene made ready: meshed, cut into environments, with its hemisphere.
 
-use radiosity::{Hemisphere, LocalEnvironment, PatchSize, Rgb, Scene, Space};
+use radiosity::{Hemisphere, LocalEnvironment, PatchSize, Rgb, Scene, Shot, Side, Space};
 use thiserror::Error;
 
 use crate::decomposition::Decomposition;
+use crate::message::Parcel;
 
 /// How a scene is meshed and cut.
 #[derive(Clone, Debug)]
@@ -80,6 +81,19 @@ impl Problem {
     /// Number of patches in all environments.
     pub fn patches(&self) -> usize {
         self.environments.iter().map(|e| e.patches.len()).sum()
+    }
+
+    /// A source with what is left of its mask, for each neighbour that it enters (§4.2.3).
+    pub(crate) fn onward(&self, parcel: &Parcel, shot: &Shot) -> impl Iterator<Item = Parcel> {
+        let (from, source) = (parcel.environment, parcel.source);
+        Side::ALL.into_iter().zip(&shot.outgoing).filter_map(move |(side, outgoing)| {
+            outgoing.as_ref().map(|outgoing| Parcel {
+                environment: self.decomposition.neighbour(from, side),
+                source,
+                mask: outgoing.mask.clone(),
+                form_factor: outgoing.form_factor,
+            })
+        })
     }
 
     /// Power that the scene emits, W.

@@ -25,6 +25,17 @@ struct Holding {
     values: Greatest,
     /// Whether the light has changed since the best patch was last looked for.
     changed: bool,
+    /// The best patch when last asked for new ones.
+    best: Option<u32>,
+    /// The sum of unshot power, W; none since the light last changed.
+    unshot: Option<Rgb>,
+}
+
+impl Holding {
+    fn note_change(&mut self) {
+        self.changed = true;
+        self.unshot = None;
+    }
 }
 
 impl Region {
@@ -40,47 +51,74 @@ impl Region {
             let light = Light::new(&problem.space, geometry);
             let value = |patch: usize| value(selection, geometry, &light, patch as u32);
             let values = Greatest::new((0..light.unshot.len()).map(value));
-            Holding { environment, light, values, changed: true }
+            Holding { environment, light, values, changed: true, best: None, unshot: None }
         };
         let holdings = environments.map(hold).collect();
         Region { problem: Arc::clone(problem), selection, threshold, holdings }
     }
 
     /// The local patch with the greatest value at or above the threshold: its value, holding and
-    /// number; of equals the lowest number. Also the work of looking for it.
-    ///
-    /// The host looks it up; the virtual processor is charged for a linear search.
-    ///
-    /// Choice C16: the best patch of each environment is remembered, and looked for again among all
-    /// patches of the environment only when its light has changed. Like §5.3, which fixes the number
-    /// of environments "in order to avoid super-linear speedup", this makes the cost of selection
-    /// depend on the environments and not on the processors that share them out.
-    pub(crate) fn best_patch(&mut self) -> (Option<(f64, usize, u32)>, Work) {
-        let mut work = Work::NONE;
+    /// number; of equals the lowest number.
+    pub(crate) fn best_patch(&self) -> Option<(f64, usize, u32)> {
         let mut best: Option<(f64, usize, u32)> = None;
-        work.count(Operation::PatchScan, self.holdings.len() as u64);
-        for (holding, held) in self.holdings.iter_mut().enumerate() {
-            if std::mem::take(&mut held.changed) {
-                work.count(Operation::PatchScan, held.light.unshot.len() as u64);
-            }
+        for (holding, held) in self.holdings.iter().enumerate() {
             let Some((value, patch)) = held.values.best() else { continue };
             if value >= self.threshold && best.is_none_or(|(other, ..)| value > other) {
                 best = Some((value, holding, patch));
             }
         }
-        (best, work)
+        best
+    }
+
+    /// The best patch of each environment, if it is at or above the threshold and another than the
+    /// last time.
+    pub(crate) fn new_best_sources(&mut self, mut tell: impl FnMut(Parcel)) {
+        for i in 0..self.holdings.len() {
+            let held = &mut self.holdings[i];
+            let best = held.values.best().filter(|&(value, _)| value >= self.threshold);
+            let best = best.map(|(_, patch)| patch);
+            if let (true, Some(patch)) = (std::mem::replace(&mut held.best, best) != best, best) {
+                tell(self.parcel(i, patch));
+            }
+        }
+    }
+
+    /// The work of looking for it. The host looks it up; the virtual processor is charged for a linear
+    /// search.
+    ///
+    /// Choice C16: the best patch of each environment is remembered, and looked for again among all
+    /// patches of the environment only when its light has changed. Like §5.3, which fixes the number
+    /// of environments "in order to avoid super-linear speedup", this makes the cost of selection
+    /// depend on the environments and not on the processors that share them out.
+    pub(crate) fn scan(&mut self) -> Work {
+        let mut work = Work::NONE;
+        work.count(Operation::PatchScan, self.holdings.len() as u64);
+        for held in &mut self.holdings {
+            if std::mem::take(&mut held.changed) {
+                work.count(Operation::PatchScan, held.light.unshot.len() as u64);
+            }
+        }
+        work
     }
 
     /// Take a patch's unshot power as a source with an all-true mask (Figure 2).
     pub(crate) fn take(&mut self, holding: usize, patch: u32) -> Parcel {
-        let problem = &self.problem;
+        let parcel = self.parcel(holding, patch);
         let held = &mut self.holdings[holding];
-        let environment = &problem.environments[held.environment as usize];
-        let source = held.light.take_source(&problem.space, environment, held.environment, patch);
+        held.light.unshot[patch as usize] = Rgb::ZERO;
         held.values.set(patch, 0.0);
-        held.changed = true;
+        held.note_change();
+        parcel
+    }
+
+    /// The source that a patch would be now.
+    pub(crate) fn parcel(&self, holding: usize, patch: u32) -> Parcel {
+        let problem = &self.problem;
+        let Holding { environment, light, .. } = &self.holdings[holding];
+        let geometry = &problem.environments[*environment as usize];
+        let source = light.source(&problem.space, geometry, *environment, patch);
         let mask = Mask::all(problem.hemisphere.pixels());
-        Parcel { environment: held.environment, source, mask, form_factor: 1.0 }
+        Parcel { environment: *environment, source, mask, form_factor: 1.0 }
     }
 
     /// Update the radiosities of the environment in which a source was shot.
@@ -94,7 +132,7 @@ impl Region {
             let value = value(self.selection, geometry, &held.light, patch);
             held.values.set(patch, value);
         }
-        held.changed = true;
+        held.note_change();
     }
 
     /// By how much the radiosity of each patch that a shot hit has grown.
@@ -112,9 +150,11 @@ impl Region {
         shot.hits.iter().map(update).collect()
     }
 
-    /// Unshot power of all patches, W.
-    pub(crate) fn unshot_power(&self) -> Rgb {
-        self.holdings.iter().map(|h| h.light.unshot_power()).sum()
+    /// Unshot power of all patches, W; summed anew only where it has changed.
+    pub(crate) fn unshot_power(&mut self) -> Rgb {
+        let sum =
+            |held: &mut Holding| *held.unshot.get_or_insert_with(|| held.light.unshot_power());
+        self.holdings.iter_mut().map(sum).sum()
     }
 
     /// The light of each environment, with its number.

@@ -70,7 +70,7 @@ impl Run {
             let mine = mine.map(|(environment, _)| environment);
             Region::new(&self.problem, mine, self.rules.selection, threshold)
         };
-        let brightest = region(None, 0.0).best_patch().0.map_or(0.0, |(value, ..)| value);
+        let brightest = region(None, 0.0).best_patch().map_or(0.0, |(value, ..)| value);
         let threshold = brightest * self.rules.patch_threshold;
         let regions: Vec<Region> = (0..processors).map(|r| region(Some(r), threshold)).collect();
         let shared = Arc::new(Shared {

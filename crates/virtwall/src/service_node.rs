@@ -20,7 +20,8 @@ pub struct Collection {
 #[doc(alias = "ServiceNode")]
 #[doc(alias = "Figure 6")]
 pub async fn service_node(process: &impl Process, collection: Collection) {
-    let mut answers = Answers { sums: vec![None; collection.compute_nodes], done: false };
+    let sums = vec![None; collection.compute_nodes];
+    let mut answers = Answers { missing: sums.len(), sums, done: false };
     let mut stopped = false;
     loop {
         let next = process.now() + collection.every;
@@ -39,7 +40,10 @@ pub async fn service_node(process: &impl Process, collection: Collection) {
 
 /// What compute nodes have told the service node.
 struct Answers {
+    /// By rank.
     sums: Vec<Option<Sums>>,
+    /// How many have not answered yet.
+    missing: usize,
     done: bool,
 }
 
@@ -57,8 +61,9 @@ impl Answers {
             return;
         }
         self.sums.fill(None);
+        self.missing = self.sums.len();
         self.tell_all(process, &Message::Collect).await;
-        while !self.done && self.sums.iter().any(Option::is_none) {
+        while !self.done && self.missing > 0 {
             process.wait().await;
             self.receive(process).await;
         }
@@ -68,7 +73,10 @@ impl Answers {
     async fn receive(&mut self, process: &impl Process) {
         for bytes in process.received().await {
             match Message::decode(&bytes) {
-                Ok(Message::Sums(sums)) => self.sums[sums.rank as usize] = Some(sums),
+                Ok(Message::Sums(sums)) => {
+                    let earlier = self.sums[sums.rank as usize].replace(sums);
+                    self.missing -= usize::from(earlier.is_none());
+                }
                 Ok(Message::Done) => self.done = true,
                 _ => {}
             }

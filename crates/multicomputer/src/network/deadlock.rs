@@ -4,7 +4,7 @@ use std::error::Error;
 use std::fmt;
 
 use super::channel::Channel;
-use super::delivery::Message;
+use super::message::Message;
 use crate::topology::Topology;
 
 /// A circle of messages, each of which waits for a channel that the next one holds. None of them

@@ -4,7 +4,7 @@ use desim::{Duration, Time};
 
 use super::channel::Channel;
 use super::deadlock::Deadlock;
-use crate::topology::Place;
+use super::message::Message;
 
 /// How messages travel. A network is driven from outside, in the order of virtual time: whoever
 /// holds it sends messages and lets time pass.
@@ -31,19 +31,6 @@ pub trait Network {
     fn channel_use(&self) -> Vec<ChannelUse> {
         Vec::new()
     }
-}
-
-/// A message, as the network sees it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Message {
-    /// The sender's name for it, unlike that of any other message under way.
-    pub id: u64,
-    /// Where it is sent.
-    pub from: Place,
-    /// Where it goes.
-    pub to: Place,
-    /// Its length.
-    pub bytes: u64,
 }
 
 /// A message that stands in the receiver's mailbox.

@@ -9,6 +9,9 @@
 //!    `hop_time` later, rounded down to cycles, at least one; what was rounded off is added when the
 //!    message arrives. A node takes in a flit a cycle.
 //!
+//! Choice C21: a Paragon's router is unpublished in such detail; this is the plainest one that has
+//! all of the mechanisms.
+//!
 //! A virtual channel is free again when the tail has left by it, and room in a buffer counts one cycle
 //! after the flit has gone.
 
@@ -18,9 +21,10 @@ use desim::{Duration, Time};
 
 use super::channel::Channel;
 use super::deadlock::Deadlock;
-use super::delivery::{Arrival, ChannelUse, Message, Network, Stall};
+use super::delivery::{Arrival, ChannelUse, Network, Stall};
 use super::links::LinkParameters;
 use super::loggp::LogGpParameters;
+use super::message::Message;
 use super::routers::Routers;
 use crate::agenda::Agenda;
 use crate::topology::Topology;
@@ -108,7 +112,7 @@ impl Flit {
 
     /// A cycle. Says whether anything moved, or is on its way through a router.
     fn step(&mut self, now: u64) -> bool {
-        self.next = now + 1;
+        self.next = now.saturating_add(1);
         let mut alive = false;
         for place in 0..self.ports.len() {
             alive |= self.inject(place, now);
@@ -117,7 +121,7 @@ impl Flit {
         let rest = self.routers.rest(self.software.hop_time);
         for number in step.out {
             let way = rest * self.routers.worm(number).hops() + self.software.latency;
-            self.arrivals.enter(self.routers.time(now + 1) + way, number);
+            self.arrivals.enter(self.routers.time(now.saturating_add(1)) + way, number);
         }
         alive || step.alive
     }
@@ -131,7 +135,7 @@ impl Flit {
         }
         sending.gone += 1;
         if gone + 1 == flits {
-            let end = self.routers.time(now + 1);
+            let end = self.routers.time(now.saturating_add(1));
             self.routers.injected(worm, end - since);
             self.ports[place].free = end + self.software.gap;
             self.ports[place].sending = None;

@@ -3,7 +3,8 @@
 use desim::{Duration, Time};
 
 use super::deadlock::Deadlock;
-use super::delivery::{Arrival, Message, Network, Stall};
+use super::delivery::{Arrival, Network, Stall};
+use super::message::Message;
 use crate::agenda::Agenda;
 
 /// A closed formula for the course of a message.

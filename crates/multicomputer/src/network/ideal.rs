@@ -2,8 +2,8 @@
 
 use desim::{Duration, Time};
 
-use super::delivery::Message;
 use super::formula::{Delivery, Formula};
+use super::message::Message;
 
 /// Messages arrive at once and cost nothing.
 #[derive(Clone, Copy, Debug, Default)]

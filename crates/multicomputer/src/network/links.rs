@@ -41,6 +41,9 @@ impl LinkParameters {
 
     /// Time that the software takes for a message before the network can take it in without a pause:
     /// the software is slower than a link, so a message enters when its rest can follow in time.
+    ///
+    /// Choice C20: a worm that crawled at the software's pace would hold its links 2.7 times as long;
+    /// the real system sent packets, each of which goes at the links' pace.
     pub(crate) fn gathering(&self, software: &LogGpParameters, bytes: u64) -> Duration {
         software.injection(bytes) - self.passage(bytes)
     }

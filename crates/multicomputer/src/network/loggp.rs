@@ -15,8 +15,9 @@
 use desim::{Duration, Time};
 
 use super::channel::Channel;
-use super::delivery::{Message, Stall};
+use super::delivery::Stall;
 use super::formula::{Delivery, Formula};
+use super::message::Message;
 use crate::topology::Topology;
 
 /// Parameters of the model.
@@ -40,6 +41,13 @@ impl LogGpParameters {
     /// G n: time in which a node's port takes in a message.
     pub(crate) fn injection(&self, bytes: u64) -> Duration {
         Duration::from_seconds_f64(bytes as f64 / self.bandwidth)
+    }
+
+    /// A message layer that costs nothing, over links of this bandwidth: the bare network.
+    pub fn bare(hop_time: Duration, bandwidth: f64) -> LogGpParameters {
+        let (send_overhead, latency) = (Duration::ZERO, Duration::ZERO);
+        let (receive_overhead, gap) = (Duration::ZERO, Duration::ZERO);
+        LogGpParameters { send_overhead, latency, hop_time, receive_overhead, gap, bandwidth }
     }
 
     /// The closed formula: from the send of a message of `bytes`, alone on the network, until it has

@@ -7,8 +7,9 @@ use desim::{Duration, Time};
 
 use super::channel::{Channel, Channels};
 use super::deadlock::Deadlock;
-use super::delivery::{ChannelUse, Message, Stall};
+use super::delivery::{ChannelUse, Stall};
 use super::links::LinkParameters;
+use super::message::Message;
 use crate::topology::{Shape, Topology};
 
 /// The routers of a network, and the messages in them.
@@ -255,11 +256,11 @@ impl Routers {
         let mut moves = Vec::new();
         for (_, lane, onward, worm) in able {
             let [from, to] = [lane, onward].map(|lane| (lane / virtual_channels) as usize);
-            if self.uses[to].came == now + 1 {
+            if self.uses[to].came > now {
                 self.hold_up(worm, to, self.uses[to].by);
             } else if self.uses[from].gave <= now {
-                self.uses[from].gave = now + 1;
-                (self.uses[to].came, self.uses[to].by) = (now + 1, worm);
+                self.uses[from].gave = now.saturating_add(1);
+                (self.uses[to].came, self.uses[to].by) = (now.saturating_add(1), worm);
                 moves.push(lane);
             }
         }
@@ -271,7 +272,8 @@ impl Routers {
         let lane = &mut self.lanes[number as usize];
         let (flit, onward) = lane.buffer.pop_front().zip(lane.onward)?;
         lane.served = now;
-        lane.front_since = lane.buffer.front().map_or(0, |front| front.ready.max(now + 1));
+        lane.front_since =
+            lane.buffer.front().map_or(0, |front| front.ready.max(now.saturating_add(1)));
         if lane.buffer.is_empty() {
             self.occupied.remove(&number);
         }
@@ -280,7 +282,7 @@ impl Routers {
         if flit.last {
             self.lanes[number as usize].onward = None;
             let owner = self.lanes[onward as usize].owner.take();
-            let cycles = owner.map_or(0, |(_, since)| now + 1 - since);
+            let cycles = owner.map_or(0, |(_, since)| now - since + 1);
             used.messages += 1;
             used.held += self.cycle * cycles;
         }
@@ -288,7 +290,7 @@ impl Routers {
         if step as usize + 1 == self.worms[flit.worm as usize].path.len() {
             return flit.last.then_some(flit.worm);
         }
-        self.put(onward, FlitOfWorm { step, ready: now + self.hop_cycles, ..flit });
+        self.put(onward, FlitOfWorm { step, ready: now.saturating_add(self.hop_cycles), ..flit });
         None
     }
 

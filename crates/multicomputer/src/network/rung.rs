@@ -17,10 +17,7 @@ use crate::topology::Topology;
 
 /// A model of the network: each rung tells more of what happens than the one below, and costs more
 /// of the host's time.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize, JsonSchema,
-)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Rung {
     /// Messages arrive at once and cost nothing.
     Ideal,
@@ -66,6 +63,35 @@ impl FromStr for Rung {
             let names = Rung::ALL.map(Rung::name).join(", ");
             format!("found \"{text}\"; expected a network model: {names}")
         })
+    }
+}
+
+/// What a machine file, or an experiment, asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Model {
+    /// Messages arrive at once and cost nothing.
+    Ideal,
+    /// LogGP with hops, without contention.
+    LogGp,
+    /// Worms that hold the links of their routes, message by message.
+    Wormhole,
+    /// Flits, buffers and virtual channels, cycle by cycle: slow.
+    Flit,
+    /// The cheapest of them whose time differs little from the next one's.
+    Auto,
+}
+
+impl Model {
+    /// The rung of the ladder; none if that is to be found out.
+    pub fn rung(self) -> Option<Rung> {
+        match self {
+            Model::Ideal => Some(Rung::Ideal),
+            Model::LogGp => Some(Rung::LogGp),
+            Model::Wormhole => Some(Rung::Wormhole),
+            Model::Flit => Some(Rung::Flit),
+            Model::Auto => None,
+        }
     }
 }
 

@@ -25,9 +25,10 @@ use desim::{Duration, Time};
 
 use super::channel::{Channel, Channels};
 use super::deadlock::Deadlock;
-use super::delivery::{Arrival, ChannelUse, Message, Network, Stall};
+use super::delivery::{Arrival, ChannelUse, Network, Stall};
 use super::links::LinkParameters;
 use super::loggp::LogGpParameters;
+use super::message::Message;
 use super::tenants::Tenants;
 use crate::agenda::Agenda;
 use crate::topology::{Shape, Topology};

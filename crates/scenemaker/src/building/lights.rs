@@ -1,13 +1,13 @@
-//! One thousand lights, each one panel in the grid of the ceiling's tiles.
+//! One thousand lights on five floors, each one panel in the grid of the ceiling's tiles.
 
 use crate::obj::{Cuboid, Facing::Down, Obj, Rect, Span};
 use crate::palette::LIGHT;
 
 use super::space::{Plan, Use};
-use super::{SIZE, SLAB, STOREY, STOREYS};
+use super::{CLEAR, SIZE, SLAB};
 
-/// How many lights there are (section 5.1).
-const LIGHTS: usize = 1000;
+/// How many lights there are a floor: one thousand on five (section 5.1).
+const LIGHTS: usize = 200;
 /// Edge of a ceiling tile, mm. The tiles start at the middle of the building and divide its length
 /// and its width into even parts, so no panel crosses a plane that halves or quarters the plan.
 const TILE: i32 = 600;
@@ -16,7 +16,7 @@ const PANEL: i32 = 580;
 /// How far a panel hangs below the ceiling, mm.
 const DROP: i32 = 30;
 
-/// Choice: how the thousand lights are spread. Every space gets this many by its use; what remains
+/// Choice: how the lights are spread. Every space gets this many by its use; what remains
 /// is spaced evenly along all corridors. So floors that are cut up into many offices have more.
 fn lights_in(usage: Use) -> usize {
     match usage {
@@ -54,7 +54,7 @@ fn corridor_lights(places: &mut Vec<[i32; 3]>, plans: &[Plan]) {
         spaces.filter(|s| s.usage == Use::Corridor).map(|s| s.hollow).collect();
     let length = |c: &Cuboid| i64::from(longer(*c)[1] - longer(*c)[0]);
     let total: i64 = corridors.iter().map(length).sum();
-    let count = LIGHTS.saturating_sub(places.len()) as i64;
+    let count = (LIGHTS * plans.len()).saturating_sub(places.len()) as i64;
     let (mut start, mut i) = (0, 0);
     for corridor in &corridors {
         while i < count && total * (2 * i + 1) / (2 * count) < start + length(corridor) {
@@ -70,7 +70,8 @@ fn corridor_lights(places: &mut Vec<[i32; 3]>, plans: &[Plan]) {
 /// the uppermost storey of the atrium.
 fn ceiling(usage: Use, hollow: Cuboid) -> Option<Cuboid> {
     let Cuboid { y, z, .. } = hollow;
-    let uppermost = z[1] > STOREY * (STOREYS.len() as i32 - 1);
+    // Only the uppermost storey of a shaft has a ceiling.
+    let uppermost = z[1] - z[0] == CLEAR;
     match usage {
         Use::Atrium if !uppermost => None,
         Use::Stairs if !uppermost => {

@@ -10,7 +10,7 @@ use crate::palette::{
     WARM_WALL, WOOD_FLOOR,
 };
 
-use super::{CLEAR, SIZE, elevation, hollow};
+use super::{CLEAR, SIZE, STOREY, elevation};
 
 /// Width of a window, mm.
 const WINDOW: i32 = 1000;
@@ -99,14 +99,16 @@ pub struct Space {
 pub struct Plan {
     /// Counted from 0.
     pub level: usize,
+    /// Whether no storey lies above it.
+    pub uppermost: bool,
     /// In the order of their numbers.
     pub spaces: Vec<Space>,
 }
 
 impl Plan {
-    /// A storey without spaces.
-    pub fn new(level: usize) -> Plan {
-        Plan { level, spaces: Vec::new() }
+    /// A storey without spaces, of a building of so many floors.
+    pub fn new(level: usize, floors: usize) -> Plan {
+        Plan { level, uppermost: level + 1 == floors, spaces: Vec::new() }
     }
 
     /// Elevation of the floor, mm.
@@ -122,7 +124,10 @@ impl Plan {
     /// Adds a space and returns its index.
     pub fn add(&mut self, usage: Use, x: Span, y: Span) -> usize {
         let number = self.spaces.len() + 1;
-        let hollow = hollow(usage, self.level, x, y);
+        // Shafts reach up to the floor above, rooms to their ceiling.
+        let open_above = usage.is_shaft() && !self.uppermost;
+        let height = if open_above { STOREY } else { CLEAR };
+        let hollow = Cuboid { x, y, z: [self.floor(), self.floor() + height] };
         let space = Space { usage, hollow, number, holes: Vec::new(), linings: Vec::new() };
         self.spaces.push(space);
         self.spaces.len() - 1

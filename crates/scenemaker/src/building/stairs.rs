@@ -8,7 +8,7 @@ use crate::obj::{
 };
 use crate::palette::{CONCRETE, WALL};
 
-use super::{SLAB, STOREY, STOREYS, elevation};
+use super::{SLAB, STOREY, elevation};
 
 /// Width of a flight, mm.
 const FLIGHT: i32 = 1200;
@@ -17,11 +17,11 @@ const LANDINGS: Span = [2200, 2000];
 /// What a flight rises, mm.
 const RISE: i32 = STOREY / 2;
 
-/// Draws all that stands in a well of that extent.
-pub fn draw(obj: &mut Obj, x: Span, y: Span) {
+/// Draws all that stands in a well of that extent through so many floors.
+pub fn draw(obj: &mut Obj, x: Span, y: Span, floors: usize) {
     let run = [y[0] + LANDINGS[0], y[1] - LANDINGS[1]];
     let (west, east) = ([x[0], x[0] + FLIGHT], [x[1] - FLIGHT, x[1]]);
-    let top = STOREYS.len() - 1;
+    let top = floors - 1;
     for level in 0..top {
         obj.object(format_args!(
             "stairs {}.{}",

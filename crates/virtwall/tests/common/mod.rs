@@ -2,9 +2,13 @@
 
 #![allow(dead_code, reason = "each test file uses some of these")]
 
+use std::sync::Arc;
+
+use desim::Duration;
+use multicomputer::Machine;
 use radiosity::glam::DVec3;
 use radiosity::{Face, Hemisphere, HemisphereKind, Material, PatchSize, Rgb, Scene};
-use virtwall::{Problem, ProblemOptions};
+use virtwall::{Mapping, Outcome, Problem, ProblemOptions, Rules, Selection, Ties};
 
 /// A material that reflects `reflectance` and emits `emission` in all colours.
 pub fn grey(reflectance: f64, emission: f64) -> Material {
@@ -81,4 +85,38 @@ pub fn options(cells: [u32; 3], cut: [u32; 3], pixels: u32, size: f64) -> Proble
 
 pub fn problem(scene: Scene, cells: [u32; 3], cut: [u32; 3], pixels: u32, size: f64) -> Problem {
     Problem::new(scene, options(cells, cut, pixels, size)).unwrap()
+}
+
+pub fn paragon() -> Machine {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../machines/paragon-xps.json");
+    Machine::from_json(&std::fs::read_to_string(path).unwrap(), path).unwrap()
+}
+
+pub fn rules() -> Rules {
+    Rules {
+        selection: Selection::Energy,
+        ties: Ties::ReceivedFirst,
+        patch_threshold: 0.002,
+        energy_threshold: 0.0,
+        collect_every: Duration::from_seconds_f64(1.0),
+        radiosity_updates: true,
+        merge_masks: false,
+        mapping: Mapping::Blocks,
+    }
+}
+
+/// The two rooms, cut.
+pub fn two_rooms_cut(cut: [u32; 3]) -> Arc<Problem> {
+    Arc::new(problem(two_rooms(), [8, 4, 4], cut, 1_024, 0.5))
+}
+
+/// Two outcomes are the same to the bit.
+pub fn same(one: &Outcome, other: &Outcome) {
+    assert_eq!(one.time, other.time);
+    assert_eq!(one.counts, other.counts);
+    assert_eq!(one.energy, other.energy);
+    assert_eq!(one.ending, other.ending);
+    assert_eq!(one.work, other.work);
+    assert_eq!(one.nodes, other.nodes);
+    assert_eq!(one.radiosity, other.radiosity);
 }

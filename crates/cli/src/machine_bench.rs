@@ -1,0 +1,129 @@
+//! `virtwall machine bench`: what a user of a machine would measure of its network first.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use clap::Args;
+use lab::{OpenMachine, Plot, Table};
+use multicomputer::{KernelError, Machine, Network, Rung, exchange, hot_spot, ping_pong};
+
+use crate::exit::Exit;
+
+/// Bytes of the messages.
+const SIZES: [u64; 10] = [8, 32, 128, 512, 2_048, 4_096, 16_384, 65_536, 262_144, 1_048_576];
+/// The longest of them that are sent flit by flit: megabytes would take hours.
+const LONGEST_OF_FLITS: u64 = 4_096;
+/// Messages a way, and rounds.
+const ROUNDS: u32 = 10;
+
+/// Which machine.
+#[derive(Args)]
+pub struct Arguments {
+    /// Name of a machine, or path to a machine file
+    machine: String,
+    /// Model of the network: ideal, loggp, wormhole or flit [default: the machine file's]
+    #[arg(long, value_name = "RUNG")]
+    network: Option<Rung>,
+    /// Write the table (bench.csv) and its plots to this folder
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+/// Measures; returns the table.
+pub fn run(arguments: &Arguments) -> Result<String, Exit> {
+    let machine = OpenMachine::load(&arguments.machine)?.machine;
+    let rung = arguments.network.or(machine.rung).unwrap_or(Rung::LogGp);
+    machine.network_on(rung).map_err(Exit::bad_input)?;
+    let most = if rung == Rung::Flit { LONGEST_OF_FLITS } else { u64::MAX };
+    let sizes = SIZES.into_iter().filter(|&bytes| bytes <= most);
+    let rows = sizes
+        .map(|bytes| row(&machine, rung, bytes))
+        .collect::<Result<Vec<_>, _>>()
+        .map_err(Exit::failure)?;
+    let columns = [
+        "bytes",
+        "microseconds_one_way",
+        "paper_microseconds_one_way",
+        "megabytes_a_second",
+        "paper_megabytes_a_second",
+        "exchange_microseconds",
+        "hot_spot_microseconds",
+    ];
+    let table = Table { columns: columns.map(str::to_owned).to_vec(), rows };
+    let text = text(&machine, rung, &table);
+    let Some(out) = &arguments.out else { return Ok(text) };
+    draw(&table, out).map_err(|error| {
+        Exit::bad_input(format!("{}: no folder for results: {error}", out.display()))
+    })?;
+    Ok(format!("{text}\nTable and plots are in {}.\n", out.display()))
+}
+
+/// Ping-pong of neighbours, exchange of all, and all to one, with messages of so many bytes.
+fn row(machine: &Machine, rung: Rung, bytes: u64) -> Result<Vec<String>, KernelError> {
+    let network = || -> Result<Box<dyn Network>, KernelError> { Ok(machine.network_on(rung)?) };
+    let ranks = machine.compute_nodes();
+    let partner = 1.min(ranks - 1);
+    let there_and_back = ping_pong(machine, network()?, (0, partner), bytes, ROUNDS)?;
+    let one_way = there_and_back.as_seconds_f64() / f64::from(2 * ROUNDS);
+    let exchange = exchange(machine, network()?, ranks, bytes, ROUNDS)?.as_seconds_f64();
+    let hot_spot = hot_spot(machine, network()?, ranks, bytes, ROUNDS)?.as_seconds_f64();
+    let messages = (ranks - 1).max(1) as f64 * f64::from(ROUNDS);
+    let published = &machine.published;
+    let latency = published.latency.filter(|_| bytes == SIZES[0]);
+    let bandwidth = published.bandwidth.filter(|_| bytes == SIZES[SIZES.len() - 1]);
+    let optional = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:.2}"));
+    Ok(vec![
+        bytes.to_string(),
+        format!("{:.2}", one_way * 1e6),
+        optional(latency.map(|latency| latency.as_seconds_f64() * 1e6)),
+        optional((one_way > 0.0).then(|| bytes as f64 / one_way / 1e6)),
+        optional(bandwidth.map(|bandwidth| bandwidth / 1e6)),
+        format!("{:.2}", exchange * 1e6 / f64::from(ROUNDS)),
+        format!("{:.2}", hot_spot * 1e6 / messages),
+    ])
+}
+
+fn text(machine: &Machine, rung: Rung, table: &Table) -> String {
+    let mut text = format!("{}, network {rung}\n\n", machine.title);
+    text += "    bytes   one way us       MB/s  exchange us  hot spot us a message\n";
+    for row in &table.rows {
+        let [bytes, one_way, _, bandwidth, _, exchange, hot_spot] = &row[..] else { continue };
+        let _ =
+            writeln!(text, "{bytes:>9}{one_way:>13}{bandwidth:>11}{exchange:>13}{hot_spot:>23}");
+    }
+    let published = &machine.published;
+    let latency = published.latency.map(|latency| format!("latency {latency}"));
+    let bandwidth = published.bandwidth.map(|b| format!("bandwidth {} MB/s", b / 1e6));
+    let published: Vec<String> = latency.into_iter().chain(bandwidth).collect();
+    if !published.is_empty() {
+        let _ = writeln!(text, "\nPublished: {}.", published.join(", "));
+    }
+    text
+}
+
+fn draw(table: &Table, out: &std::path::Path) -> std::io::Result<()> {
+    std::fs::create_dir_all(out)?;
+    lab::write_file(&out.join("bench.csv"), &table.to_csv()?)?;
+    for (y, title) in [
+        ("microseconds_one_way", "Time of a message between neighbours"),
+        ("megabytes_a_second", "Bandwidth between neighbours"),
+        ("exchange_microseconds", "Exchange of every node with four neighbours"),
+        ("hot_spot_microseconds", "All nodes to one: time a message"),
+    ] {
+        let plot = Plot {
+            x: "bytes".to_owned(),
+            y: y.to_owned(),
+            series: None,
+            title: Some(title.to_owned()),
+            log_x: true,
+            log_y: true,
+            power_law: false,
+            file: None,
+        };
+        lab::write_file(
+            &out.join(format!("{}.svg", plot.stem())),
+            lab::svg(table, &plot).as_bytes(),
+        )?;
+    }
+    Ok(())
+}

@@ -1,0 +1,118 @@
+//! `virtwall machine compare`: the wormhole model of a machine's network held against flits.
+
+use std::fmt::Write as _;
+
+use clap::Args;
+use desim::{Duration, Time};
+use lab::OpenMachine;
+use multicomputer::{
+    Load, LogGpParameters, Machine, Measured, NetworkParameters, Pattern, Rung, fluid_bound, replay,
+};
+
+use crate::exit::Exit;
+
+/// Loads, in parts of the fluid bound.
+const LOADS: [f64; 8] = [0.02, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 0.9];
+/// A network is saturated where messages take so many times as long as when it is empty.
+const SATURATED: f64 = 3.0;
+/// How near the two are expected to be below saturation.
+const NEAR: f64 = 0.15;
+
+/// Which network, under which load.
+#[derive(Args)]
+pub struct Arguments {
+    /// Name of a machine, or path to a machine file
+    #[arg(long, value_name = "NAME", default_value = "paragon-xps")]
+    machine: String,
+    /// Bytes a message
+    #[arg(long, value_name = "N", default_value_t = 4_096, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    bytes: u64,
+    /// Messages of each node, in the mean
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u64).range(4..=10_000))]
+    messages: u64,
+    /// Count the message layer in, which hides what the network does; else it costs nothing
+    #[arg(long)]
+    software: bool,
+    /// Seed of the random traffic
+    #[arg(long, value_name = "N", default_value_t = 1996)]
+    seed: u64,
+}
+
+/// Compares; returns a table, and how near the two models are.
+pub fn run(arguments: &Arguments) -> Result<String, Exit> {
+    let machine = OpenMachine::load(&arguments.machine)?.machine;
+    machine.network_on(Rung::Flit).map_err(Exit::bad_input)?;
+    let mut text = format!("{}, messages of {} B\n", machine.title, arguments.bytes);
+    text += "pattern        load  messages   wormhole us       flit us  difference\n";
+    let mut farthest = (0.0_f64, String::new());
+    for pattern in Pattern::ALL {
+        let mut empty = None;
+        for load in LOADS {
+            let [worms, flits] = measure(&machine, arguments, pattern, load)?;
+            let name = pattern.name();
+            if worms.messages == 0 {
+                let _ = writeln!(text, "{name:<12}{:>6.0} %  no node has a partner", load * 100.0);
+                break;
+            }
+            let difference = worms.latency / flits.latency - 1.0;
+            let saturated = flits.latency > SATURATED * *empty.get_or_insert(flits.latency);
+            let _ = writeln!(
+                text,
+                "{name:<12}{:>5.0} %{:>10}{:>14.2}{:>14.2}{:>10.1} %{}",
+                load * 100.0,
+                worms.messages,
+                worms.latency * 1e6,
+                flits.latency * 1e6,
+                difference * 100.0,
+                if saturated { "  saturated" } else { "" }
+            );
+            if saturated {
+                break;
+            }
+            if difference.abs() > farthest.0.abs() {
+                farthest = (difference, format!("{name} at {:.0} %", load * 100.0));
+            }
+        }
+    }
+    let (difference, place) = farthest;
+    let verdict = if difference.abs() <= NEAR { "within" } else { "NOT within" };
+    let percent = difference * 100.0;
+    let _ = writeln!(
+        text,
+        "\nLoads are parts of what the busiest channel could carry. Below saturation mean latencies \
+         differ by {percent:.1} % at most ({place}): {verdict} {:.0} %.",
+        NEAR * 100.0
+    );
+    Ok(text)
+}
+
+/// The same traffic over both rungs.
+fn measure(
+    machine: &Machine,
+    arguments: &Arguments,
+    pattern: Pattern,
+    share: f64,
+) -> Result<[Measured; 2], Exit> {
+    let Arguments { bytes, messages, seed, software, .. } = *arguments;
+    let (topology, nodes) = (machine.topology(), machine.compute_nodes());
+    let mut parameters = machine.parameters.clone();
+    let NetworkParameters { software: Some(layer), links: Some(links) } = &mut parameters else {
+        return Err(Exit::bad_input("the machine's network has no links"));
+    };
+    if !software {
+        *layer = LogGpParameters::bare(layer.hop_time, links.bandwidth);
+    }
+    // A node cannot send faster than its message layer.
+    let bound = fluid_bound(pattern, topology, nodes, links).min(layer.bandwidth);
+    let every = Duration::from_seconds_f64(bytes as f64 / (share * bound));
+    let load = Load { pattern, bytes, every, until: Time::ZERO + every * messages, seed };
+    let trace = load.trace(topology, nodes);
+    let on = |rung| {
+        let mut network = parameters.build(rung, topology).ok_or("no such network")?;
+        let courses =
+            replay(&trace, network.as_mut(), topology).map_err(|error| error.to_string())?;
+        Ok::<_, String>(Measured::of(&load, &trace, &courses))
+    };
+    let both = on(Rung::Wormhole).and_then(|worms| Ok([worms, on(Rung::Flit)?]));
+    both.map_err(Exit::failure)
+}

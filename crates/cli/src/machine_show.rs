@@ -1,0 +1,77 @@
+//! `virtwall machine show`: what a machine is, how each number is known, and a drawing of it.
+
+use std::fmt::Write as _;
+
+use clap::Args;
+use lab::OpenMachine;
+use multicomputer::{Machine, Shape};
+use serde_json::Value;
+
+use crate::exit::Exit;
+
+/// Which machine.
+#[derive(Args)]
+pub struct Arguments {
+    /// Name of a machine, or path to a machine file
+    machine: String,
+}
+
+/// Prints the machine.
+pub fn run(arguments: &Arguments) -> Result<String, Exit> {
+    let open = OpenMachine::load(&arguments.machine)?;
+    let value: Value = serde_json::from_str(&open.text).map_err(Exit::failure)?;
+    let rung = open.machine.rung.map_or("auto", |rung| rung.name());
+    let mut text = format!("{}\n{}\n\n", open.machine.title, drawing(&open.machine));
+    let _ = writeln!(text, "Network model: {rung}. Numbers, from {}:\n", open.label);
+    numbers(&mut text, "", &value);
+    Ok(text)
+}
+
+/// All numbers under a value of the file, each with its provenance and its source.
+fn numbers(text: &mut String, place: &str, value: &Value) {
+    let Value::Object(fields) = value else { return };
+    if let Some(provenance) = fields.get("provenance").and_then(Value::as_str) {
+        let word = |field: &str| match fields.get(field) {
+            Some(Value::String(text)) => text.clone(),
+            other => other.map_or(String::new(), Value::to_string),
+        };
+        let _ = writeln!(text, "{place} = {} ({provenance}: {})", word("value"), word("source"));
+        return;
+    }
+    for (name, inner) in fields {
+        let dot = if place.is_empty() { "" } else { "." };
+        numbers(text, &format!("{place}{dot}{name}"), inner);
+    }
+}
+
+/// The places row by row: compute nodes by number, service nodes as s, empty ones as points.
+fn drawing(machine: &Machine) -> String {
+    let (compute, nodes) = (machine.compute_nodes(), machine.nodes());
+    let topology = machine.topology();
+    let width = (compute.max(2) - 1).to_string().len();
+    let place = |number: usize| match number {
+        _ if number < compute => format!("{number:>width$}"),
+        _ if number < nodes => format!("{:>width$}", "s"),
+        _ => format!("{:>width$}", "."),
+    };
+    let (columns, between, around) = match topology.shape() {
+        Shape::Mesh { width, .. } => (width.into(), "-", ""),
+        Shape::Torus { width, .. } => (width.into(), "-", "~"),
+        Shape::Crossbar { .. } => (nodes.min(16), " ", ""),
+        Shape::Bus { .. } => (nodes.min(16), " ", ""),
+    };
+    let numbers: Vec<usize> = (0..topology.places()).collect();
+    let rows = numbers.chunks(columns).map(|row| {
+        let row = row.iter().map(|&number| place(number)).collect::<Vec<_>>();
+        format!("  {around}{}{around}\n", row.join(&format!(" {between} ")))
+    });
+    let name = match topology.shape() {
+        Shape::Mesh { width, height } => format!("a mesh, {width} x {height}"),
+        Shape::Torus { width, height } => format!("a torus, {width} x {height}, ends (~) joined"),
+        Shape::Crossbar { places } => format!("a crossbar of {places} places"),
+        Shape::Bus { places } => format!("a bus with {places} places"),
+    };
+    let service = machine.service_nodes();
+    let what = format!("{compute} compute nodes and {service} service nodes (s) on {name}:\n\n");
+    what + &rows.collect::<String>()
+}

@@ -1,0 +1,186 @@
+//! `virtwall machine` and networks of experiments, from outside.
+
+#![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
+
+#[path = "../../lab/tests/common/mod.rs"]
+mod common;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use common::{Project, SWEEP};
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+fn virtwall(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
+    let output =
+        Command::new(env!("CARGO_BIN_EXE_virtwall")).current_dir(folder).args(arguments).output();
+    let Output { status, stdout, stderr } = output.unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (status.code().unwrap(), text(stdout), text(stderr))
+}
+
+const FIXTURES: &str = "machines/fixtures";
+
+fn replay(trace: &str, machine: &str, network: &str) -> (i32, String, String) {
+    let [trace, machine] = [trace, machine].map(|name| format!("{FIXTURES}/{name}.json"));
+    let arguments = ["machine", "replay", &trace, "--machine", &machine, "--network", network];
+    virtwall(&root(), &arguments)
+}
+
+#[test]
+fn a_replay_prints_the_course_of_every_message() {
+    let (code, table, stderr) = replay("head-of-line", "row-of-4", "wormhole");
+    assert_eq!((code, stderr.as_str()), (0, ""));
+    let expected = "\
+id,from,to,bytes,sent_s,arrived_s,blocked_s,blocked_by
+first,2,3,1000000,0.000000000000,1.000000000000,0.000000000000,
+second,0,3,1000000,0.000000000000,2.000000000000,1.000000000000,first
+third,0,1,1000000,0.000000000000,3.000000000000,2.000000000000,second
+";
+    assert_eq!(table, expected);
+    let (code, _, stderr) = replay("round-the-ring", "ring-of-4", "wormhole");
+    assert_eq!(code, 1);
+    assert!(stderr.starts_with("error: at 200 µs: deadlock in the network: \"from-"), "{stderr}");
+}
+
+#[test]
+fn a_replay_can_go_to_a_file() {
+    let project = Project::new(SWEEP);
+    let trace = r#"[{"id": "a", "at": "0 us", "from": 0, "to": 3, "bytes": 4096, "after": []}]"#;
+    project.write("t.json", trace);
+    let folder = project.path("");
+    let arguments = "machine replay t.json --network wormhole --out t.csv --channels c.csv";
+    let arguments: Vec<&str> = arguments.split(' ').collect();
+    let (code, said, _) = virtwall(&folder, &arguments);
+    assert_eq!((code, said.as_str()), (0, "1 messages; their courses are in t.csv.\n"));
+    let table = fs::read_to_string(project.path("t.csv")).unwrap();
+    // 4,096 B at 175 MB/s.
+    let channels = fs::read_to_string(project.path("c.csv")).unwrap();
+    assert!(channels.contains("\nlink 1→2,1,0.000023405714,0.0000234"), "{channels}");
+    assert!(channels.contains("\nlink 2→1,0,0.000000000000,0.000000000000,0.000000\n"));
+    // 42 µs, 3 hops of 40 ns, 4,096 B at 65 MB/s.
+    assert!(
+        table.ends_with("a,0,3,4096,0.000000000000,0.000105135385,0.000000000000,\n"),
+        "{table}"
+    );
+}
+
+#[test]
+fn bad_traces_and_networks_exit_with_2_and_leave_nothing() {
+    let project = Project::new(SWEEP);
+    project.write("t.json", r#"[{"id": "a", "at": "0 us", "from": 0, "to": 58, "bytes": 1}]"#);
+    project.write(
+        "c.json",
+        r#"[{"id": 1, "at": "0 us", "from": 0, "to": 5, "bytes": 1, "after": [1]}]"#,
+    );
+    project.write("g.json", "[]");
+    let machine = fs::read_to_string(project.path("machines/paragon-xps.json")).unwrap();
+    let links = machine.find(",\n    \"links\"").unwrap();
+    project.write("machines/no-links.json", &format!("{}\n  }}\n}}", &machine[..links]));
+    for (arguments, message) in [
+        (
+            &["machine", "replay", "t.json"][..],
+            "t.json: [0].to: found 58; expected a node, 0 to 57",
+        ),
+        (
+            &["machine", "replay", "c.json"],
+            "c.json: [0].after: found a circle, \"1\" after \"1\"; expected messages that can be sent",
+        ),
+        (&["machine", "replay", "none.json"], "none.json: cannot be read"),
+        (&["machine", "replay", "g.json", "--machine", "cray"], "unknown machine \"cray\""),
+        (&["machine", "replay", "g.json", "--network", "pigeon"], "found \"pigeon\"; expected"),
+        (
+            &["machine", "replay", "g.json", "--machine", "no-links", "--network", "flit"],
+            "has no \"network.links\", which its network needs as \"flit\"",
+        ),
+        (
+            &["run", "experiments/x.json", "--network", "pigeon"],
+            "--set network=pigeon: network: unknown variant `pigeon`",
+        ),
+        (
+            &["run", "experiments/x.json", "--set", "machine=no-links", "--network", "wormhole"],
+            "has no \"network.links\", which its network needs as \"wormhole\"",
+        ),
+    ] {
+        let (code, _, stderr) = virtwall(&project.path(""), arguments);
+        assert_eq!(code, 2, "{arguments:?}: {stderr}");
+        assert!(stderr.contains(message), "{arguments:?}: {stderr}");
+        assert!(!project.path("results").exists(), "{arguments:?}");
+    }
+}
+
+/// Rows of the results of the small project's sweep over networks, a map from column to cell each.
+fn rows(project: &Project) -> Vec<Vec<(String, String)>> {
+    let csv = fs::read_to_string(project.path("results/x/runs.csv")).unwrap();
+    let mut lines = csv.lines();
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let row = |line: &str| {
+        let cells = line.split(',').map(str::to_owned);
+        names.iter().map(|name| (*name).to_owned()).zip(cells).collect()
+    };
+    lines.map(row).collect()
+}
+
+fn cell<'a>(row: &'a [(String, String)], name: &str) -> &'a str {
+    row.iter().find(|(column, _)| column == name).map_or("", |(_, cell)| cell)
+}
+
+#[test]
+fn an_experiment_runs_on_every_network_and_says_what_differs() {
+    let networks = r#""network": ["ideal", "loggp", "wormhole", "flit", "auto"], "title""#;
+    let text = SWEEP.replace("[64, 256]", "64").replace("\"title\"", networks);
+    let project = Project::new(&text);
+    let (code, said, stderr) = virtwall(&project.path(""), &["run", "experiments/x.json"]);
+    assert_eq!((code, stderr.as_str()), (0, ""), "{said}");
+    assert!(said.contains("  network   farthest from the finest     CPU s\n"), "{said}");
+    let rows = rows(&project);
+    assert_eq!(rows.len(), 15);
+    for row in &rows {
+        let (asked, used) = (cell(row, "network"), cell(row, "network_used"));
+        let difference: f64 =
+            cell(row, "difference_from_finest").trim_end_matches(" %").parse().unwrap();
+        match asked {
+            "flit" => assert_eq!(difference, 0.0),
+            "auto" => {
+                assert!(difference.abs() <= 1.0, "{row:?}");
+                assert!(cell(row, "network_why").contains("a pilot of "), "{row:?}");
+            }
+            _ => assert_eq!(asked, used),
+        }
+        let blocked: f64 = cell(row, "blocked_s").parse().unwrap();
+        assert!(blocked == 0.0 || used != "ideal", "{row:?}");
+    }
+}
+
+#[test]
+fn a_machine_is_shown_and_measured() {
+    let (code, text, _) = virtwall(&root(), &["machine", "show", "paragon-xps"]);
+    assert_eq!(code, 0);
+    assert!(text.contains("56 compute nodes and 2 service nodes (s) on a mesh, 4 x 16"), "{text}");
+    assert!(text.contains("\n  52 - 53 - 54 - 55\n   s -  s -  . -  .\n"), "{text}");
+    assert!(text.contains("network.links.bandwidth = 175 MB/s (published: "), "{text}");
+
+    let project = Project::new(SWEEP);
+    let (code, text, _) =
+        virtwall(&project.path(""), &["machine", "bench", "paragon-xps", "--out", "bench"]);
+    assert_eq!(code, 0);
+    assert!(text.contains("\n     4096       105.06      38.99"), "{text}");
+    assert!(text.contains("Published: latency 42 µs, bandwidth 65 MB/s."), "{text}");
+    let svg = fs::read_to_string(project.path("bench/megabytes_a_second-by-bytes.svg")).unwrap();
+    assert!(svg.contains("paper"));
+}
+
+#[test]
+fn worms_are_compared_with_flits() {
+    let small = ["machine", "compare", "--bytes", "64", "--messages", "8"];
+    let (code, table, stderr) = virtwall(&root(), &small);
+    assert_eq!((code, stderr.as_str()), (0, ""));
+    for pattern in ["uniform", "neighbour", "transpose", "hot-spot", "all-to-one"] {
+        assert!(table.contains(pattern), "{table}");
+    }
+    assert!(table.contains("Below saturation mean latencies differ by "), "{table}");
+}

@@ -1,0 +1,104 @@
+//! The choice of a rung, and the record on which it rests.
+
+#![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
+
+use std::convert::Infallible;
+use std::fs;
+
+use desim::{Duration, Simulation, Time};
+use multicomputer::{
+    Choice, Machine, Multicomputer, Network, Recorder, Rung, choose, exchange, hot_spot,
+};
+use serde_json::Value;
+
+fn paragon() -> Value {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../machines/paragon-xps.json");
+    serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
+}
+
+fn machine(file: &Value) -> Machine {
+    Machine::from_json(&file.to_string(), "m.json").unwrap()
+}
+
+fn chosen(
+    machine: &Machine,
+    tolerance: f64,
+    program: impl Fn(&Machine, Box<dyn Network>) -> Time,
+) -> Choice<()> {
+    let run = |network| Ok::<_, Infallible>((program(machine, network), ()));
+    choose(machine, tolerance, run).unwrap()
+}
+
+/// Two nodes that compute for a second and then exchange a message.
+fn computes(machine: &Machine, network: Box<dyn Network>) -> Time {
+    let simulation = Simulation::new();
+    let handle = simulation.handle();
+    let nodes = Multicomputer::<()>::with_network(&handle, machine, 2, network).unwrap();
+    for (rank, partner) in [(0, 1), (1, 0)] {
+        let node = nodes.node(rank);
+        handle.spawn(format!("node {rank}"), async move {
+            node.compute(Duration::from_seconds_f64(1.0)).await;
+            node.send(partner, 4_096, ()).await;
+            node.wait().await;
+            node.received().await;
+        });
+    }
+    simulation.run().unwrap()
+}
+
+#[test]
+fn the_cheapest_rung_is_chosen_and_it_is_told_why() {
+    let paragon = machine(&paragon());
+    let idle = chosen(&paragon, 0.01, computes);
+    assert_eq!(idle.rung, Rung::Ideal);
+    // 105 µs of a second.
+    assert_eq!(
+        idle.why,
+        "the busiest link works 0.002 % of the time; a pilot of 2 of 2 messages on loggp adds at \
+         most 0.011 %"
+    );
+    let strict = chosen(&paragon, 1e-5, computes);
+    assert_eq!(strict.rung, Rung::LogGp);
+    assert_eq!(strict.time, idle.time + Duration(105_055_385));
+
+    // Nothing but messages, each port on its own: LogGP is enough.
+    let exchanged = chosen(&paragon, 0.01, |machine, network| {
+        exchange(machine, network, 16, 4_096, 2).unwrap()
+    });
+    assert_eq!(exchanged.rung, Rung::LogGp, "{}", exchanged.why);
+
+    // All send to one: its way in has to be shared, which LogGP does not know.
+    let rushed = chosen(&paragon, 0.01, |machine, network| {
+        hot_spot(machine, network, 16, 4_096, 2).unwrap()
+    });
+    assert_eq!(rushed.rung, Rung::Wormhole, "{}", rushed.why);
+    assert!(rushed.record.blocked() > Duration::ZERO);
+}
+
+#[test]
+fn the_choice_ends_where_the_machine_s_file_does() {
+    let mut file = paragon();
+    file["network"].as_object_mut().unwrap().remove("links");
+    let rushed = chosen(&machine(&file), 0.01, |machine, network| {
+        hot_spot(machine, network, 16, 4_096, 2).unwrap()
+    });
+    assert_eq!(rushed.rung, Rung::LogGp);
+    assert_eq!(rushed.why, "the machine's file says too little for wormhole");
+}
+
+#[test]
+fn a_recorder_changes_nothing_and_tells_all() {
+    let paragon = machine(&paragon());
+    let network = || paragon.network_on(Rung::Wormhole).unwrap();
+    let (recorder, record) = Recorder::new(network());
+    let end = hot_spot(&paragon, Box::new(recorder), 8, 4_096, 3).unwrap();
+    assert_eq!(end, hot_spot(&paragon, network(), 8, 4_096, 3).unwrap());
+    let record = record.borrow();
+    assert_eq!(record.letters.len(), 21);
+    assert!(record.letters.iter().all(|letter| letter.arrived.is_some_and(|at| at <= end)));
+    // The link from node 4 to node 0 carries what comes from the second row: 12 messages.
+    let links = paragon.parameters.links.clone().unwrap();
+    let busiest = record.busiest_link(paragon.topology(), &links, end);
+    let expected = 12.0 * 4_096.0 / 175e6 / end.as_seconds_f64();
+    assert!((busiest / expected - 1.0).abs() < 1e-12, "{busiest} {expected}");
+}

@@ -1,0 +1,152 @@
+//! Threads of the host that have nothing else to do, and the work that they may do ahead of its time.
+
+use std::collections::VecDeque;
+use std::mem;
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+
+/// Work that changes nothing but how soon its result is there.
+type Job = Box<dyn FnOnce() + Send>;
+
+/// Jobs that may wait at a time, at some 4 KB each: more than are done before the next come.
+const MOST_JOBS: usize = 1_024;
+
+/// Threads that do their own work first; one that has none left helps the others, until all have done
+/// theirs.
+#[derive(Default)]
+pub struct Helpers {
+    state: Mutex<State>,
+    changed: Condvar,
+    /// Threads in all.
+    threads: usize,
+}
+
+#[derive(Default)]
+struct State {
+    jobs: VecDeque<Job>,
+    /// Threads with work of their own.
+    working: usize,
+}
+
+impl Helpers {
+    /// So many threads, each of which calls [`Helpers::work_then_help`], once.
+    pub fn of(threads: usize) -> Helpers {
+        Helpers {
+            state: Mutex::new(State { jobs: VecDeque::new(), working: threads }),
+            changed: Condvar::new(),
+            threads,
+        }
+    }
+
+    /// Do the work of this thread, then help the others until theirs is done.
+    pub fn work_then_help<T>(&self, work: impl FnOnce() -> T) -> T {
+        let done = {
+            let _working = Working(self);
+            work()
+        };
+        while let Some(job) = self.wait() {
+            job();
+        }
+        // What is left holds on to what it was to work on.
+        let rest = mem::take(&mut self.held().jobs);
+        drop(rest);
+        done
+    }
+
+    /// Whether others may help, now or soon, and have no end of jobs.
+    pub(crate) fn want_jobs(&self) -> bool {
+        self.threads > 1 && self.held().jobs.len() < MOST_JOBS
+    }
+
+    /// Put a job up for whoever helps.
+    pub(crate) fn add(&self, job: Job) {
+        self.held().jobs.push_back(job);
+        self.changed.notify_one();
+    }
+
+    /// A job that waits: the oldest, since it is likely to be needed first.
+    pub(crate) fn take(&self) -> Option<Job> {
+        self.held().jobs.pop_front()
+    }
+
+    /// The next job; none when all threads help.
+    fn wait(&self) -> Option<Job> {
+        let mut state = self.held();
+        while state.working > 0 {
+            let job = state.jobs.pop_front();
+            if job.is_some() {
+                return job;
+            }
+            state = self.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
+        }
+        None
+    }
+
+    fn held(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// A thread at its own work; also if it panics, that ends.
+struct Working<'a>(&'a Helpers);
+
+impl Drop for Working<'_> {
+    fn drop(&mut self) {
+        let mut state = self.0.held();
+        state.working = state.working.saturating_sub(1);
+        drop(state);
+        self.0.changed.notify_all();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::panic::{AssertUnwindSafe, catch_unwind};
+    use std::sync::Arc;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+    use std::thread;
+
+    use super::*;
+
+    /// Jobs that one thread puts up are done by the others.
+    #[test]
+    fn others_help() {
+        let helpers = Helpers::of(3);
+        let done = Arc::new(AtomicUsize::new(0));
+        thread::scope(|scope| {
+            for _ in 0..2 {
+                scope.spawn(|| helpers.work_then_help(|| ()));
+            }
+            helpers.work_then_help(|| {
+                for _ in 0..100 {
+                    let done = Arc::clone(&done);
+                    helpers.add(Box::new(move || _ = done.fetch_add(1, Ordering::Relaxed)));
+                }
+                while done.load(Ordering::Relaxed) < 100 {
+                    thread::yield_now();
+                }
+            });
+        });
+    }
+
+    /// Nobody waits for a thread that panicked.
+    #[test]
+    fn a_panic_ends_the_work() {
+        let helpers = Helpers::of(2);
+        thread::scope(|scope| {
+            let helping = scope.spawn(|| helpers.work_then_help(|| ()));
+            let panics = AssertUnwindSafe(|| helpers.work_then_help(|| panic!("as it should")));
+            assert!(catch_unwind(panics).is_err());
+            helping.join().unwrap();
+        });
+    }
+
+    /// Jobs hold what they were to work on, and that may hold those who help.
+    #[test]
+    fn jobs_left_over_are_let_go() {
+        let (helpers, held) = (Helpers::of(1), Arc::new(()));
+        let job = Arc::clone(&held);
+        helpers.add(Box::new(move || drop(job)));
+        helpers.work_then_help(|| ());
+        assert_eq!(Arc::strong_count(&held), 1);
+    }
+}

@@ -1,0 +1,65 @@
+//! What decides a shot of a problem.
+
+use radiosity::Mask;
+use xxhash_rust::xxh3::Xxh3Default;
+
+use crate::message::Parcel;
+
+/// What decides a shot of a problem: environment, source and mask. The mask stands here by a 128-bit
+/// digest: among 10⁹ masks two share theirs with a probability below 10⁻²⁰.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct ShotKey {
+    environment: u32,
+    source_environment: u32,
+    patch: u32,
+    mask: u128,
+}
+
+impl ShotKey {
+    /// Bytes of a key in a file.
+    pub const BYTES: usize = 28;
+
+    pub(crate) fn of(parcel: &Parcel) -> ShotKey {
+        let Parcel { environment, source, mask, .. } = parcel;
+        ShotKey {
+            environment: *environment,
+            source_environment: source.environment,
+            patch: source.patch,
+            mask: digest(mask),
+        }
+    }
+
+    /// The key as bytes, little-endian.
+    pub fn to_bytes(self) -> [u8; ShotKey::BYTES] {
+        let mut bytes = [0; ShotKey::BYTES];
+        let numbers = [self.environment, self.source_environment, self.patch];
+        for (place, number) in bytes.chunks_exact_mut(4).zip(numbers) {
+            place.copy_from_slice(&number.to_le_bytes());
+        }
+        bytes[12..].copy_from_slice(&self.mask.to_le_bytes());
+        bytes
+    }
+
+    /// The key that bytes stand for.
+    pub fn from_bytes(bytes: &[u8; ShotKey::BYTES]) -> ShotKey {
+        let number = |at: usize| u32::from_le_bytes(std::array::from_fn(|i| bytes[at + i]));
+        ShotKey {
+            environment: number(0),
+            source_environment: number(4),
+            patch: number(8),
+            mask: u128::from_le_bytes(std::array::from_fn(|i| bytes[12 + i])),
+        }
+    }
+}
+
+fn digest(mask: &Mask) -> u128 {
+    let mut hasher = Xxh3Default::new();
+    for words in mask.words().chunks(64) {
+        let mut bytes = [0; 512];
+        for (place, word) in bytes.chunks_exact_mut(8).zip(words) {
+            place.copy_from_slice(&word.to_le_bytes());
+        }
+        hasher.update(&bytes[..words.len() * 8]);
+    }
+    hasher.digest128()
+}
