@@ -63,6 +63,9 @@ pub fn drawable(axes: &[Axis], tells: Tells) -> Vec<String> {
 const OF_THE_NETWORK: [&str; 5] =
     ["network_used", "network_why", "difference_from_finest", "busiest_link", "blocked_s"];
 
+/// The column after these, where the number of local environments is swept.
+const OF_ENVIRONMENTS: [&str; 1] = ["gain"];
+
 /// The column after these, where results tell of caches.
 const OF_CACHES: [&str; 1] = ["missing_s"];
 
@@ -73,8 +76,10 @@ pub fn names(axes: &[Axis], tells: Tells) -> Vec<String> {
     let swept = swept.filter(|name| !FIRST.contains(&name.as_str()));
     let first = FIRST.iter().map(|&name| name.to_owned());
     let network = OF_THE_NETWORK.iter().filter(|_| tells.of_the_network);
+    let cut = axes.iter().any(|axis| axis.place.to_string() == "local_environments");
+    let environments = OF_ENVIRONMENTS.iter().filter(|_| cut);
     let caches = OF_CACHES.iter().filter(|_| tells.of_caches);
-    let last = LAST.iter().chain(network).chain(caches).map(|&name| name.to_owned());
+    let last = LAST.iter().chain(network).chain(environments).chain(caches).map(|&name| name.to_owned());
     first.chain(swept).chain(last).collect()
 }
 

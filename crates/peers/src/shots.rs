@@ -13,8 +13,9 @@ use virtwall::{Parcel, Problem};
 /// # Errors
 /// What is wrong with the scene.
 pub fn problem(scene: &str, environments: u32) -> Result<Arc<Problem>, String> {
-    let set = [format!("scene={scene}"), format!("local_environments={environments}")];
-    let plan = lab::Plan::read(Path::new("experiments/figure11.json"), &set);
+    let set = ["processors=1", &format!("scene={scene}")].map(str::to_owned);
+    let set = [&set[..], &[format!("local_environments={environments}")]].concat();
+    let plan = lab::Plan::read(Path::new("experiments/table1.json"), &set);
     let plan = plan.map_err(|fault| fault.to_string())?;
     Ok(Arc::clone(&plan.problems[0].problem))
 }

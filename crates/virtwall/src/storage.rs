@@ -31,6 +31,8 @@ pub struct Layout {
     pub patch: [u64; 2],
     /// What the innermost loops have in constant use: frames, ray, source.
     pub hot: u64,
+    /// Between an array and the next: an allocator's own.
+    pub gap: u64,
     /// Whether each environment keeps its cells and polygons by itself, as it does on a machine without
     /// shared memory.
     pub by_environment: bool,
@@ -52,6 +54,7 @@ impl Layout {
         form_factor: 8,
         patch: [96, 8],
         hot: 512,
+        gap: 16,
         by_environment: true,
     };
 }
@@ -83,13 +86,15 @@ struct Polygons {
 }
 
 /// Memory, given to arrays one after the other.
-struct Room(u64);
+struct Room {
+    next: u64,
+    gap: u64,
+}
 
 impl Room {
     fn take(&mut self, records: usize, bytes: u64) -> u64 {
-        let start = self.0;
-        // As allocators do: aligned, with a few bytes of their own before each.
-        self.0 = (start + records as u64 * bytes).next_multiple_of(16) + 16;
+        let start = self.next;
+        self.next = (start + records as u64 * bytes).next_multiple_of(16) + self.gap;
         start
     }
 }
@@ -101,7 +106,7 @@ impl Storage {
         let environments = &problem.environments;
         let most_patches = environments.iter().map(|e| e.patches.len()).max().unwrap_or(0);
         let mask_bytes = u64::from(problem.hemisphere.pixels()).div_ceil(64) * 8;
-        let mut room = Room(0);
+        let mut room = Room { next: 0, gap: layout.gap };
         let mut storage = Storage {
             problem: Arc::clone(problem),
             caches: Caches::new(levels, layout.hot),
