@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::Args;
+use desim::Time;
 use lab::{OpenMachine, Plot, Table};
 use multicomputer::{KernelError, Machine, Network, Rung, exchange, hot_spot, ping_pong};
 
@@ -65,9 +66,14 @@ fn row(machine: &Machine, rung: Rung, bytes: u64) -> Result<Vec<String>, KernelE
     let partner = 1.min(ranks - 1);
     let there_and_back = ping_pong(machine, network()?, (0, partner), bytes, ROUNDS)?;
     let one_way = there_and_back.as_seconds_f64() / f64::from(2 * ROUNDS);
-    let exchange = exchange(machine, network()?, ranks, bytes, ROUNDS)?.as_seconds_f64();
-    let hot_spot = hot_spot(machine, network()?, ranks, bytes, ROUNDS)?.as_seconds_f64();
+    let exchange = exchange(machine, network()?, ranks, bytes, ROUNDS);
+    let hot_spot = hot_spot(machine, network()?, ranks, bytes, ROUNDS);
     let messages = (ranks - 1).max(1) as f64 * f64::from(ROUNDS);
+    let each = |time: Result<Time, KernelError>, count: f64| match time {
+        Ok(time) => Ok(format!("{:.2}", time.as_seconds_f64() * 1e6 / count)),
+        Err(KernelError::Stalled(_)) => Ok("deadlock".to_owned()),
+        Err(error) => Err(error),
+    };
     let published = &machine.published;
     let latency = published.latency.filter(|_| bytes == SIZES[0]);
     let bandwidth = published.bandwidth.filter(|_| bytes == SIZES[SIZES.len() - 1]);
@@ -78,8 +84,8 @@ fn row(machine: &Machine, rung: Rung, bytes: u64) -> Result<Vec<String>, KernelE
         optional(latency.map(|latency| latency.as_seconds_f64() * 1e6)),
         optional((one_way > 0.0).then(|| bytes as f64 / one_way / 1e6)),
         optional(bandwidth.map(|bandwidth| bandwidth / 1e6)),
-        format!("{:.2}", exchange * 1e6 / f64::from(ROUNDS)),
-        format!("{:.2}", hot_spot * 1e6 / messages),
+        each(exchange, f64::from(ROUNDS))?,
+        each(hot_spot, messages)?,
     ])
 }
 

@@ -5,16 +5,19 @@
 mod bench_rays;
 mod check;
 mod exit;
+mod formfactors;
 mod machine_bench;
 mod machine_compare;
 mod machine_replay;
 mod machine_show;
+mod make_reference;
 mod plot;
 mod progress;
 mod run;
 mod scene_make;
 mod scene_show;
 mod schema;
+mod steps;
 
 use std::process::ExitCode;
 
@@ -44,6 +47,10 @@ enum Command {
     /// Look at machines, and try their networks.
     #[command(subcommand)]
     Machine(MachineCommand),
+    /// Find the form factors between the objects of any scene.
+    Formfactors(formfactors::Arguments),
+    /// Solve a scene as exactly as can be, and store the answer for others to be held against.
+    Reference(make_reference::Arguments),
     /// Measure how fast this host is.
     #[command(subcommand)]
     Bench(BenchCommand),
@@ -88,6 +95,8 @@ fn main() -> ExitCode {
         Command::Machine(MachineCommand::Bench(arguments)) => machine_bench::run(&arguments),
         Command::Machine(MachineCommand::Compare(arguments)) => machine_compare::run(&arguments),
         Command::Machine(MachineCommand::Replay(arguments)) => machine_replay::run(&arguments),
+        Command::Formfactors(arguments) => formfactors::run(&arguments),
+        Command::Reference(arguments) => make_reference::run(&arguments),
         Command::Bench(BenchCommand::Rays(arguments)) => bench_rays::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
     };

@@ -172,6 +172,11 @@ fn a_machine_is_shown_and_measured() {
     assert!(text.contains("Published: latency 42 µs, bandwidth 65 MB/s."), "{text}");
     let svg = fs::read_to_string(project.path("bench/megabytes_a_second-by-bytes.svg")).unwrap();
     assert!(svg.contains("paper"));
+
+    let (code, text, _) = virtwall(&root(), &["machine", "bench", "paragon-osf1-early"]);
+    assert_eq!(code, 0);
+    // All nodes send four messages of 1 MiB before they read one, into buffers of 1 MiB.
+    assert!(text.contains("\n  1048576     32358.40      32.41     deadlock"), "{text}");
 }
 
 #[test]
@@ -183,4 +188,36 @@ fn worms_are_compared_with_flits() {
         assert!(table.contains(pattern), "{table}");
     }
     assert!(table.contains("Below saturation mean latencies differ by "), "{table}");
+}
+
+#[test]
+fn what_a_message_layer_does_stands_in_the_results() {
+    let text = SWEEP
+        .replace("[64, 256]", "64")
+        .replace("[1, 2, 4]", "4")
+        .replace("\"title\"", r#""machine": ["paragon-xps", "roomy", "relieved"], "title""#);
+    let project = Project::new(&text);
+    let extension = |name: &str, layer: &str| {
+        let number =
+            |value| format!(r#"{{ "value": "{value}", "provenance": "assumed", "source": "t" }}"#);
+        let layer = layer.replace("1B", &number("1 B")).replace("1us", &number("1 us"));
+        let layer = layer.replace("1MB/s", &number("1 MB/s"));
+        let text = format!(r#"{{ "extends": "paragon-xps", "message_layer": {{ {layer} }} }}"#);
+        project.write(&format!("machines/{name}.json"), &text);
+    };
+    extension("roomy", r#""packets": { "size": 1B, "time": 1us }, "copy_bandwidth": 1MB/s"#);
+    extension("relieved", r#""coprocessor": { "handover": 1us }, "buffers": 1B"#);
+    let (code, _, stderr) = virtwall(&project.path(""), &["run", "experiments/x.json"]);
+    assert_eq!((code, stderr.as_str()), (0, ""));
+    let rows = rows(&project);
+    let number = |row: usize, name: &str| cell(&rows[row], name).parse::<f64>().unwrap();
+    // Nothing stands beside a machine that says nothing of its message layer.
+    assert_eq!(cell(&rows[0], "copying_s"), "");
+    // A microsecond a byte, of sources and of the few bytes of control.
+    assert!(number(1, "packing_s") > number(1, "message_bytes") * 1e-6);
+    assert!(number(1, "copying_s") > 0.0 && number(1, "unposted_messages") > 0.0);
+    assert_eq!(number(1, "buffer_bytes_most"), 0.0);
+    assert!(number(2, "coprocessor_s") > 0.0 && number(2, "held_messages") > 0.0);
+    assert_eq!((number(2, "packing_s"), number(2, "waiting_for_room_s")), (0.0, 0.0));
+    assert!(number(2, "buffer_bytes_most") > 1.0, "a message may be longer than the buffers");
 }

@@ -147,7 +147,9 @@ fn draw_series(chart: &mut Chart, series: &Series, colour: RGBColor) -> Drawn {
     let points: Vec<_> = series.law.map_or_else(|| simulated.clone().collect(), through);
     chart.draw_series(LineSeries::new(points, line(colour, 2)))?;
     chart.draw_series(paper.clone().map(|at| Circle::new(at, px(4), WHITE.filled())))?;
-    chart.draw_series(paper.map(|at| Circle::new(at, px(4), line(colour, 1))))?;
+    // A single point, where the two should agree, would hide behind ours: a ring around it.
+    let radius = if series.paper.len() == 1 { px(8) } else { px(4) };
+    chart.draw_series(paper.map(|at| Circle::new(at, radius, line(colour, 1))))?;
     chart.draw_series(simulated.map(|at| Circle::new(at, px(4), colour.filled())))?;
     Ok(())
 }

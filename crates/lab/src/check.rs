@@ -38,14 +38,15 @@ pub fn check(path: &Path) -> Result<String, Fault> {
     if has("obj") || has("made") {
         return scene(path, "a scene");
     }
-    if has("processor") || has("network") {
+    if has("processor") || has("network") || has("extends") {
+        let found = Found { path: path.to_owned(), label: path.display().to_string() };
         let machine = OpenMachine::load(&path.display().to_string())?.machine;
         let (compute, service) = (machine.compute_nodes(), machine.service_nodes());
         let what = format!("a machine, {compute} compute nodes and {service} service nodes");
         if machine.processor.cycles.is_empty() {
             return Ok(what + "; it prices no operation, so that it only replays traces");
         }
-        engine::load_machine(path)?;
+        engine::load_machine(&found)?;
         return Ok(what);
     }
     let message = "neither an experiment (\"scene\"), a scene (\"obj\" or \"made\") nor a machine (\"processor\"); \

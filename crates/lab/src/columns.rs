@@ -4,14 +4,18 @@ use serde_json::Value;
 
 use crate::engine;
 use crate::figures::Figures;
-use crate::plan::Tells;
+use crate::message_layer;
 use crate::sweep::Axis;
+
+/// Two of the first columns, against whose ones runs are held.
+pub const PROCESSORS: &str = "processors";
+pub const ENVIRONMENTS: &str = "local_environments";
 
 /// The first columns, always these, in this order.
 const FIRST: [&str; 14] = [
     "scene",
-    "processors",
-    "local_environments",
+    PROCESSORS,
+    ENVIRONMENTS,
     "seed",
     "time_s",
     "speed_up",
@@ -53,33 +57,58 @@ pub const HOST_TIMES: [&str; 3] = ["cpu_s", "set_up_s", "clock_s"];
 pub const OPERATIONS: [&str; 2] = ["operations", "operations."];
 
 /// All columns that can be drawn: those of a sweep, each count of operations, the host's.
-pub fn drawable(axes: &[Axis], tells: Tells) -> Vec<String> {
+pub fn drawable(axes: &[Axis], also: Also) -> Vec<String> {
     let counts = engine::operations().map(|count| OPERATIONS[1].to_owned() + count);
     let host = HOST_TIMES.iter().map(|time| HOST.to_owned() + time);
-    names(axes, tells).into_iter().chain(counts).chain(host).collect()
+    names(axes, also).into_iter().chain(counts).chain(host).collect()
 }
 
 /// The columns after these, where results tell of the network.
 const OF_THE_NETWORK: [&str; 5] =
     ["network_used", "network_why", "difference_from_finest", "busiest_link", "blocked_s"];
 
+/// The columns after these, where nodes have memory.
+const OF_MEMORY: [&str; 2] = ["memory_high_water", "paging_s"];
+
+/// The column after these, where processors have caches.
+const OF_CACHES: [&str; 1] = ["missing_s"];
+
 /// The column after these, where the number of local environments is swept.
 const OF_ENVIRONMENTS: [&str; 1] = ["gain"];
 
-/// The column after these, where results tell of caches.
-const OF_CACHES: [&str; 1] = ["missing_s"];
+/// What columns there are besides those of every sweep.
+#[derive(Clone, Copy, Debug)]
+pub struct Also {
+    /// Those of the network.
+    pub network: bool,
+    /// Those of the nodes' memory.
+    pub memory: bool,
+    /// Those of the message layer.
+    pub message_layer: bool,
+    /// Those of the processors' caches.
+    pub caches: bool,
+    /// Those that compare numbers of local environments.
+    pub environments: bool,
+}
+
+impl Also {
+    fn columns(self) -> impl Iterator<Item = &'static str> {
+        let network = OF_THE_NETWORK.into_iter().filter(move |_| self.network);
+        let memory = OF_MEMORY.into_iter().filter(move |_| self.memory);
+        let layer = message_layer::COLUMNS.into_iter().filter(move |_| self.message_layer);
+        let caches = OF_CACHES.into_iter().filter(move |_| self.caches);
+        let environments = OF_ENVIRONMENTS.into_iter().filter(move |_| self.environments);
+        network.chain(memory).chain(layer).chain(caches).chain(environments)
+    }
+}
 
 /// All columns of a sweep, in order: the first ones, swept fields not among them, the last ones, and
-/// those that tell of more.
-pub fn names(axes: &[Axis], tells: Tells) -> Vec<String> {
+/// those that are asked for.
+pub fn names(axes: &[Axis], also: Also) -> Vec<String> {
     let swept = axes.iter().map(|axis| axis.place.to_string());
     let swept = swept.filter(|name| !FIRST.contains(&name.as_str()));
     let first = FIRST.iter().map(|&name| name.to_owned());
-    let network = OF_THE_NETWORK.iter().filter(|_| tells.of_the_network);
-    let cut = axes.iter().any(|axis| axis.place.to_string() == "local_environments");
-    let environments = OF_ENVIRONMENTS.iter().filter(|_| cut);
-    let caches = OF_CACHES.iter().filter(|_| tells.of_caches);
-    let last = LAST.iter().chain(network).chain(environments).chain(caches).map(|&name| name.to_owned());
+    let last = LAST.into_iter().chain(also.columns()).map(str::to_owned);
     first.chain(swept).chain(last).collect()
 }
 
@@ -87,11 +116,14 @@ pub fn names(axes: &[Axis], tells: Tells) -> Vec<String> {
 pub fn figure(figures: &Figures, column: &str) -> Option<String> {
     let energy = &figures.energy;
     let network = figures.network.as_ref();
+    let memory = figures.memory.as_ref();
     Some(match column {
         "network_used" => network.map_or(String::new(), |network| network.rung.clone()),
         "network_why" => network.map_or(String::new(), |network| network.why.clone()),
         "busiest_link" => optional(network.and_then(|network| network.busiest_link), 6),
         "blocked_s" => optional(network.map(|network| network.blocked_s), 9),
+        "memory_high_water" => memory.map_or(String::new(), |memory| memory.high_water.to_string()),
+        "paging_s" => optional(memory.map(|memory| memory.paging_s), 6),
         "missing_s" => optional(figures.missing_s, 6),
         "time_s" => optional(figures.time_s, 6),
         "local_shots" => figures.local_shots.to_string(),
@@ -114,7 +146,7 @@ pub fn figure(figures: &Figures, column: &str) -> Option<String> {
             let counts = figures.work.iter().map(|(name, count)| format!("{name}={count}"));
             counts.collect::<Vec<_>>().join(" ")
         }
-        _ => return None,
+        _ => return figures.message_layer.and_then(|layer| layer.cell(column)),
     })
 }
 

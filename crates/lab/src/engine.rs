@@ -1,18 +1,22 @@
 //! The one door to the simulator: beyond it nothing here knows how a kernel or a link works.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use multicomputer::Machine;
 use radiosity::{Hemisphere, HemisphereKind, Operation, PatchSize, Rgb};
 use serde::Serialize;
-use virtwall::{Ending, KeptShots, Outcome, Problem, ProblemError, ProblemOptions, Rules, Run};
+use virtwall::{
+    Ending, KeptShots, Outcome, Problem, ProblemError, ProblemOptions, Rules, Run, Thing,
+};
 
 use crate::experiment::{self as fields, Experiment};
 use crate::fault::Fault;
 use crate::figures::{Energy, Figures};
-use crate::file;
+use crate::find::Found;
+use crate::machine_file::MachineFile;
+use crate::message_layer::{self, MessageLayerFigures};
 use crate::network;
+use crate::node_memory;
 use crate::settings::{Settings, WrongField};
 
 /// What the programs run on.
@@ -35,15 +39,26 @@ pub fn operations() -> impl Iterator<Item = &'static str> {
 ///
 /// # Errors
 /// What is wrong with the file, and where.
-pub fn load_machine(path: &Path) -> Result<Machine, Fault> {
-    let file = path.display().to_string();
-    let machine = Machine::from_json(&file::read_text(path)?, &file).map_err(Fault::complete)?;
-    let priced = |operation: &&Operation| machine.processor.price(operation.name()).is_some();
+pub fn load_machine(found: &Found) -> Result<MachineFile, Fault> {
+    let file = MachineFile::load(found)?;
+    let processor = &file.machine.processor;
+    let priced = |operation: &&Operation| processor.price(operation.name()).is_some();
     match Operation::ALL.iter().find(|operation| !priced(operation)) {
-        None => Ok(machine),
+        None => sized(file, found),
         Some(operation) => {
             let message = format!("no price of \"{}\"; expected one of each", operation.name());
-            Err(Fault::of_file(file, message))
+            Err(Fault::of_file(found.path.display(), message))
+        }
+    }
+}
+
+/// Makes sure that a machine with memory gives everything a size.
+fn sized(file: MachineFile, found: &Found) -> Result<MachineFile, Fault> {
+    match file.machine.node_memory.as_ref().and_then(Thing::without_size) {
+        None => Ok(file),
+        Some(thing) => {
+            let message = format!("no size of \"{}\"; expected one of each", thing.name());
+            Err(Fault::of_file(found.path.display(), message))
         }
     }
 }
@@ -105,14 +120,16 @@ pub fn carry_out(
     machine: &Machine,
 ) -> Result<Figures, String> {
     let outcome = match on {
-        On::Simulation => network::simulate(run, machine, point),
+        On::Simulation => network::simulate(run, &node_memory::machine(machine, point), point),
         On::Threads => virtwall::run_on_threads(run).map(|outcome| (outcome, None)),
     };
     let (outcome, network) = outcome.map_err(|error| error.to_string())?;
-    let simulated = on == On::Simulation;
-    let caches = simulated && !machine.processor.caches.is_empty();
+    let tells = on == On::Simulation && message_layer::tells(machine);
+    let message_layer = tells.then(|| MessageLayerFigures::of(&outcome.layer()));
+    let caches = on == On::Simulation && !machine.processor.caches.is_empty();
     let missing_s = caches.then(|| outcome.missing().as_seconds_f64());
-    Ok(Figures { network, missing_s, ..figures(&run.problem, &outcome, simulated) })
+    let figures = figures(&run.problem, &outcome, on == On::Simulation);
+    Ok(Figures { network, message_layer, missing_s, ..figures })
 }
 
 /// The outcome's figures; times only if they are virtual.
@@ -144,8 +161,10 @@ fn figures(problem: &Problem, outcome: &Outcome, virtual_time: bool) -> Figures 
             Ending::TooEarly { lost } => Some(lost),
         },
         patches: problem.patches() as u64,
-        missing_s: None,
         network: None,
+        memory: node_memory::figures(outcome),
+        message_layer: None,
+        missing_s: None,
         work: outcome.work.counts().map(|(op, n)| (op.name().to_owned(), n)).collect(),
     }
 }

@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
+use crate::node_memory::NodeMemoryFields;
 use crate::quantity::{Fraction, Length, Period, Triple};
 use crate::schema;
 
@@ -45,6 +46,10 @@ pub struct Experiment {
     /// How far the time on the network "auto" may be from that on the next finer one. Default: 1 %.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub network_tolerance: Option<Fraction>,
+    /// Memory of a node, in place of what the machine's file says; its file must model it. Results on
+    /// such a machine have the columns memory_high_water, the bytes of the fullest node, and paging_s.
+    #[serde(default, skip_serializing_if = "NodeMemoryFields::is_empty")]
+    pub node_memory: NodeMemoryFields,
     /// Compute nodes used, at most as many as there are local environments. Paper: Table 1.
     #[schemars(range(min = 1))]
     pub processors: u32,

@@ -2,7 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::message_layer::MessageLayerFigures;
 use crate::network::NetworkFigures;
+use crate::node_memory::NodeMemoryFigures;
 
 /// The figures of one run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -42,6 +44,12 @@ pub struct Figures {
     /// What it tells of its network, if that was asked for.
     #[serde(default)]
     pub network: Option<NetworkFigures>,
+    /// What it tells of its nodes' memory, where that is modelled.
+    #[serde(default)]
+    pub memory: Option<NodeMemoryFigures>,
+    /// What it tells of its machine's message layer, if that does anything.
+    #[serde(default)]
+    pub message_layer: Option<MessageLayerFigures>,
 }
 
 /// Where the energy is at the end of a run, in shares of the emitted energy, all colours together.

@@ -5,8 +5,8 @@ use std::path::Path;
 use multicomputer::Machine;
 
 use crate::fault::Fault;
-use crate::file;
 use crate::find::{Shelf, find};
+use crate::machine_file::MachineFile;
 
 /// A machine, and its file.
 pub struct OpenMachine {
@@ -14,7 +14,7 @@ pub struct OpenMachine {
     pub machine: Machine,
     /// What results call its file.
     pub label: String,
-    /// What its file says.
+    /// What its file says, with what it extends.
     pub text: String,
 }
 
@@ -26,8 +26,7 @@ impl OpenMachine {
     /// What is wrong, and where.
     pub fn load(name: &str) -> Result<OpenMachine, Fault> {
         let found = find(Path::new("."), Shelf::Machines, name).map_err(Fault::complete)?;
-        let text = file::read_text(&found.path)?;
-        let machine = Machine::from_json(&text, &found.label).map_err(Fault::complete)?;
+        let MachineFile { machine, text, .. } = MachineFile::load(&found)?;
         Ok(OpenMachine { machine, label: found.label, text })
     }
 }

@@ -8,9 +8,11 @@ use multicomputer::Machine;
 use serde_json::Value;
 use virtwall::Problem;
 
+use crate::columns::{Also, ENVIRONMENTS};
 use crate::comparison::Comparison;
 use crate::digest::FileDigest;
 use crate::experiment::{Experiment, Plot};
+use crate::message_layer;
 use crate::network;
 use crate::place::Place;
 use crate::settings::Settings;
@@ -43,24 +45,17 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// What its results tell of.
-    pub fn tells(&self) -> Tells {
+    /// What its results tell of besides what all do.
+    pub fn also(&self) -> Also {
         let machine = |run: &Run| &self.machines[run.machine].machine;
-        let tells = |run: &Run| network::tells(machine(run), run.point.network);
-        Tells {
-            of_the_network: self.runs.iter().any(tells),
-            of_caches: self.runs.iter().any(|run| !machine(run).processor.caches.is_empty()),
+        Also {
+            network: self.runs.iter().any(|run| network::tells(machine(run), run.point.network)),
+            memory: self.runs.iter().any(|run| machine(run).node_memory.is_some()),
+            message_layer: self.runs.iter().any(|run| message_layer::tells(machine(run))),
+            caches: self.runs.iter().any(|run| !machine(run).processor.caches.is_empty()),
+            environments: self.axes.iter().any(|axis| axis.place.to_string() == ENVIRONMENTS),
         }
     }
-}
-
-/// What columns results have besides those that they always have.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Tells {
-    /// Of the network.
-    pub of_the_network: bool,
-    /// Of the processors' caches.
-    pub of_caches: bool,
 }
 
 /// One run.
@@ -93,8 +88,8 @@ pub struct Equipment {
     pub machine: Machine,
     /// Where its file is.
     pub path: PathBuf,
-    /// Its file.
-    pub digest: FileDigest,
+    /// Its file, and those that it extends.
+    pub digests: Vec<FileDigest>,
 }
 
 /// Which value a run has of each swept field but `field`.

@@ -15,6 +15,7 @@ use crate::fault::{Fault, unknown};
 use crate::file::{PLAIN, is_plain};
 use crate::find::{Shelf, find};
 use crate::host_clock::HostClock;
+use crate::machine_file::MachineFile;
 use crate::measure::Measure;
 use crate::network;
 use crate::place::Place;
@@ -76,7 +77,7 @@ impl Planner<'_> {
 
         let mut files: Vec<FileDigest> =
             self.scenes.values().flat_map(|(s, _)| s.digests.clone()).collect();
-        files.extend(self.machines.iter().map(|machine| machine.digest.clone()));
+        files.extend(self.machines.iter().flat_map(|machine| machine.digests.clone()));
         files.extend(compared);
         files.sort();
         files.dedup();
@@ -134,6 +135,11 @@ impl Planner<'_> {
             );
             return Err(self.fault(point, "processors", message));
         }
+        if self.machines[machine].machine.node_memory.is_none() && !typed.node_memory.is_empty() {
+            let message = format!("the memory of \"{}\" is not modelled", typed.machine);
+            let message = message + "; expected a machine whose file has \"node_memory\"";
+            return Err(self.fault(point, "node_memory", message));
+        }
         network::check(&self.machines[machine].machine, typed.network)
             .map_err(|error| self.fault(point, "network", error.to_string()))?;
         let problem = self.problem(point, &typed)?;
@@ -152,9 +158,8 @@ impl Planner<'_> {
         if let Some(loaded) = self.machines.iter().position(|m| m.path == found.path) {
             return Ok(loaded);
         }
-        let digest = FileDigest::of(&found.path, &found.label)?;
-        let machine = engine::load_machine(&found.path)?;
-        self.machines.push(Equipment { machine, path: found.path, digest });
+        let MachineFile { machine, digests, .. } = engine::load_machine(&found)?;
+        self.machines.push(Equipment { machine, path: found.path, digests });
         Ok(self.machines.len() - 1)
     }
 
@@ -206,7 +211,7 @@ impl Planner<'_> {
 /// Refuses plots of columns that there will not be, or with names that lead elsewhere.
 fn check_plots(plan: &Plan, document: &Document) -> Result<(), Fault> {
     let plots: &[Plot] = &plan.plots;
-    let known = columns::drawable(&plan.axes, plan.tells());
+    let known = columns::drawable(&plan.axes, plan.also());
     for (i, plot) in plots.iter().enumerate() {
         let place = Place::of("plots").item(i);
         let [x, y] = [&plot.x, &plot.y].map(|text| Measure::of(text));

@@ -67,6 +67,20 @@ impl Kind for PeriodKind {
     }
 }
 
+/// A size of memory, from a byte on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SizeKind;
+
+impl Kind for SizeKind {
+    const NAME: &'static str = "a size";
+    const DIMENSION: Dimension = Dimension::Bytes;
+    const EXAMPLE: &'static str = "8 MiB";
+    const RANGE: &'static str = "from 1 B to 1 GB";
+    fn allows(value: f64) -> bool {
+        (1.0..=1e9).contains(&value)
+    }
+}
+
 /// A number with its unit, as text in a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quantity<K> {
@@ -81,6 +95,8 @@ pub type Length = Quantity<LengthKind>;
 pub type Fraction = Quantity<FractionKind>;
 /// A span of virtual time, in seconds.
 pub type Period = Quantity<PeriodKind>;
+/// A size of memory, in bytes.
+pub type Size = Quantity<SizeKind>;
 
 impl<K: Kind> Quantity<K> {
     /// Reads text such as "0.30 m".
@@ -95,7 +111,7 @@ impl<K: Kind> Quantity<K> {
         Ok(Quantity { text: text.to_owned(), value, kind: PhantomData })
     }
 
-    /// The value in the base unit: metres, seconds, or a fraction of 1.
+    /// The value in the base unit: metres, seconds, bytes, or a fraction of 1.
     pub fn value(&self) -> f64 {
         self.value
     }

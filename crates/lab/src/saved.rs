@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
-use crate::digest::sha256;
+use crate::digest::{FileDigest, sha256};
 use crate::engine::On;
 use crate::experiment::Experiment;
 use crate::figures::Figures;
@@ -30,7 +30,9 @@ impl Saved {
     /// its results, the files it reads, and this program.
     pub fn key(&self, plan: &Plan, run: &Run, on: On) -> String {
         let prepared = &plan.problems[run.problem];
-        let scene: Vec<&str> = prepared.digests.iter().map(|file| file.sha256.as_str()).collect();
+        let digests = |files: &[FileDigest]| -> Vec<String> {
+            files.iter().map(|file| file.sha256.clone()).collect()
+        };
         let point = Experiment {
             schema: None,
             title: String::new(),
@@ -41,9 +43,9 @@ impl Saved {
         let conditions = json!({
             "program": program(),
             "on": on,
-            "scene": scene,
+            "scene": digests(&prepared.digests),
             "settings": prepared.settings,
-            "machine": plan.machines[run.machine].digest.sha256,
+            "machine": digests(&plan.machines[run.machine].digests),
             "point": point,
         });
         sha256(conditions.to_string().as_bytes())

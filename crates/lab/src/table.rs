@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::columns;
+use crate::columns::{self, ENVIRONMENTS, PROCESSORS};
+use crate::experiment::Experiment;
 use crate::networks::{self, Finest};
 use crate::plan::{Plan, Run, all_else};
 use crate::runner::{Ending, Endings};
@@ -19,20 +20,13 @@ pub struct Table {
 impl Table {
     /// The results of a plan's runs, in the plan's order.
     pub fn of(plan: &Plan, endings: &Endings) -> Table {
-        let columns = columns::names(&plan.axes, plan.tells());
-        let one_processor = &alone(plan, endings, "processors", |run| run.point.processors);
-        let one_environment =
-            &alone(plan, endings, "local_environments", |run| run.point.local_environments);
+        let columns = columns::names(&plan.axes, plan.also());
+        let one_processor = &alone(plan, endings, PROCESSORS, |point| point.processors);
+        let one_environment = &alone(plan, endings, ENVIRONMENTS, |point| point.local_environments);
         let finest = &networks::finest(plan, endings);
         let row = |(run, ending): (&Run, &Option<Ending>)| {
-            let view = View {
-                plan,
-                run,
-                ending: ending.as_ref(),
-                one_processor,
-                one_environment,
-                finest,
-            };
+            let ending = ending.as_ref();
+            let view = View { plan, run, ending, one_processor, one_environment, finest };
             columns.iter().map(|column| view.cell(column)).collect()
         };
         let rows = plan.runs.iter().zip(&endings.runs).map(row).collect();
@@ -111,7 +105,11 @@ impl View<'_> {
             "local_environments" => point.local_environments.to_string(),
             "seed" => point.seed.to_string(),
             "speed_up" => self.speed_up().map_or(String::new(), |s| format!("{s:.4}")),
-            "gain" => self.gain().map_or(String::new(), |gain| format!("{gain:.4}")),
+            // Figure 11: time with one local environment, all else equal, over this run's time.
+            "gain" => {
+                let gain = self.gain(self.one_environment, ENVIRONMENTS);
+                gain.map_or(String::new(), |gain| format!("{gain:.4}"))
+            }
             "efficiency" => {
                 let share = self.speed_up().map(|s| s / f64::from(point.processors));
                 share.map_or(String::new(), |share| format!("{share:.4}"))
@@ -148,15 +146,10 @@ impl View<'_> {
 
     /// Time on one processor, all else equal, over this run's time.
     fn speed_up(&self) -> Option<f64> {
-        self.over(self.one_processor, "processors")
+        self.gain(self.one_processor, PROCESSORS)
     }
 
-    /// Figure 11: time with one local environment, all else equal, over this run's time.
-    fn gain(&self) -> Option<f64> {
-        self.over(self.one_environment, "local_environments")
-    }
-
-    fn over(&self, alone: &Alone, field: &str) -> Option<f64> {
+    fn gain(&self, alone: &Alone, field: &str) -> Option<f64> {
         let one = alone.get(&all_else(self.plan, self.run, field))?;
         let time = self.ending?.as_ref().ok()?.time_s?;
         (time > 0.0).then_some(one / time)
@@ -166,8 +159,8 @@ impl View<'_> {
 /// Times of the runs for which a field is 1, by all that is swept besides it.
 type Alone = BTreeMap<Vec<usize>, f64>;
 
-fn alone(plan: &Plan, endings: &Endings, field: &str, value: impl Fn(&Run) -> u32) -> Alone {
-    let runs = plan.runs.iter().zip(&endings.runs).filter(|(run, _)| value(run) == 1);
+fn alone(plan: &Plan, endings: &Endings, field: &str, value: fn(&Experiment) -> u32) -> Alone {
+    let runs = plan.runs.iter().zip(&endings.runs).filter(|(run, _)| value(&run.point) == 1);
     let time = |ending: &Option<Ending>| ending.as_ref()?.as_ref().ok()?.time_s;
     runs.filter_map(|(run, ending)| Some((all_else(plan, run, field), time(ending)?))).collect()
 }

@@ -33,7 +33,7 @@ fn experiments_are_refused_with_place_value_and_expectation() {
             &format!("{{{good},\n\"processor\": 2}}"),
             "experiments/x.json:2: processor: unknown field \"processor\", did you mean \
              \"processors\"? (there are: $schema, title, scene, machine, network, network_tolerance, \
-             processors, local_environments, cut, cells, patch_size, emitter_patch_size, hemisphere, \
+             node_memory, processors, local_environments, cut, cells, patch_size, emitter_patch_size, hemisphere, \
              selection, ties, stop, merge_masks, mapping, radiosity_updates, reuse_shots, seed, compare_with, \
              plots)",
         ),
@@ -56,6 +56,11 @@ fn experiments_are_refused_with_place_value_and_expectation() {
             &format!("{{{good}, \"selection\": \"best\"}}"),
             "experiments/x.json:1: selection: unknown variant `best`, expected `energy` or \
              `delta_radiosity`",
+        ),
+        (
+            &format!("{{{good},\n \"node_memory\": {{\"available\": \"8 MiB\"}}}}"),
+            "experiments/x.json:2: node_memory: the memory of \"paragon-xps\" is not modelled; \
+             expected a machine whose file has \"node_memory\"",
         ),
         (
             &format!("{{{good}, \"patch_size\": 0.3}}"),

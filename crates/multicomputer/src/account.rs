@@ -2,16 +2,23 @@
 
 use desim::{Duration, Time};
 
-/// What a node did with its time, and its traffic. The four spans sum exactly to the node's life:
-/// from the start until it finished, or until the account was drawn up.
+/// What a node did with its time, and its traffic. Compute, cache misses, both overheads, packing,
+/// copying, waiting for room, paging and idle sum exactly to the node's life: from the start until it
+/// finished, or until the account was drawn up.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct NodeAccount {
     /// Time in kernels.
     pub compute: Duration,
+    /// Time in which kernels waited for what was not in the processor's caches.
+    pub missing: Duration,
     /// Time given to sending messages.
     pub send_overhead: Duration,
     /// Time given to taking messages in.
     pub receive_overhead: Duration,
+    /// What the rest of the message layer did.
+    pub layer: LayerAccount,
+    /// Time spent waiting for pages that were not in memory.
+    pub paging: Duration,
     /// The rest.
     pub idle: Duration,
     /// Messages sent.
@@ -20,14 +27,54 @@ pub struct NodeAccount {
     pub bytes_sent: u64,
     /// Messages taken out of the mailbox.
     pub messages_received: u64,
+    /// The most bytes that program and message buffers have held, where memory is modelled.
+    pub memory_high_water: Option<u64>,
     /// When the node finished, if it said so.
     pub finished: Option<Time>,
 }
 
+/// What the message layer did on a node, besides the overheads.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LayerAccount {
+    /// Time given to making packets.
+    pub packing: Duration,
+    /// Time given to copying messages that arrived with no receive posted.
+    pub copying: Duration,
+    /// Time spent waiting for room in receivers' buffers.
+    pub waiting_for_room: Duration,
+    /// Time in which the message coprocessor was busy; it is no part of the node's life.
+    pub coprocessor: Duration,
+    /// Messages received that had arrived with no receive posted.
+    pub unposted_messages: u64,
+    /// Messages sent that had to wait for room in buffers.
+    pub held_messages: u64,
+    /// The most bytes that were ever taken of the node's buffers, if they are finite.
+    pub buffer_bytes_most: u64,
+}
+
 impl NodeAccount {
-    /// The node's life: all four spans.
+    /// Time that the processor gave to messages.
+    pub fn overhead(&self) -> Duration {
+        let LayerAccount { packing, copying, waiting_for_room, .. } = self.layer;
+        self.send_overhead + self.receive_overhead + packing + copying + waiting_for_room
+    }
+
+    /// The node's life: all spans.
     pub fn life(&self) -> Duration {
-        self.compute + self.send_overhead + self.receive_overhead + self.idle
+        self.compute + self.missing + self.overhead() + self.paging + self.idle
+    }
+}
+
+impl LayerAccount {
+    /// Adds another node's: sums, and the most bytes in one node's buffers.
+    pub fn add(&mut self, other: &LayerAccount) {
+        self.packing += other.packing;
+        self.copying += other.copying;
+        self.waiting_for_room += other.waiting_for_room;
+        self.coprocessor += other.coprocessor;
+        self.unposted_messages += other.unposted_messages;
+        self.held_messages += other.held_messages;
+        self.buffer_bytes_most = self.buffer_bytes_most.max(other.buffer_bytes_most);
     }
 }
 
@@ -35,8 +82,13 @@ impl NodeAccount {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Activity {
     Compute,
+    Missing,
     Send,
     Receive,
+    Paging,
+    Pack,
+    Copy,
+    WaitForRoom,
     #[default]
     Idle,
 }
@@ -63,9 +115,20 @@ impl Ledger {
         self.account.bytes_sent = self.account.bytes_sent.saturating_add(bytes);
     }
 
-    /// Messages are taken in.
-    pub(crate) fn received(&mut self, messages: u64) {
+    /// Messages are taken in, some of which arrived with no receive posted.
+    pub(crate) fn received(&mut self, messages: u64, unposted: u64) {
         self.account.messages_received += messages;
+        self.account.layer.unposted_messages += unposted;
+    }
+
+    /// A message must wait for room.
+    pub(crate) fn held(&mut self) {
+        self.account.layer.held_messages += 1;
+    }
+
+    /// The coprocessor was busy for a span.
+    pub(crate) fn coprocessor(&mut self, span: Duration) {
+        self.account.layer.coprocessor += span;
     }
 
     /// The node's life ends. Only the first end counts.
@@ -85,8 +148,13 @@ impl Ledger {
             let spent = now - self.since;
             *match self.activity {
                 Activity::Compute => &mut self.account.compute,
+                Activity::Missing => &mut self.account.missing,
                 Activity::Send => &mut self.account.send_overhead,
                 Activity::Receive => &mut self.account.receive_overhead,
+                Activity::Paging => &mut self.account.paging,
+                Activity::Pack => &mut self.account.layer.packing,
+                Activity::Copy => &mut self.account.layer.copying,
+                Activity::WaitForRoom => &mut self.account.layer.waiting_for_room,
                 Activity::Idle => &mut self.account.idle,
             } += spent;
         }

@@ -1,5 +1,12 @@
 //! A processor's caches, line by line.
 
+use crate::fault::MachineFault;
+use crate::file::CacheFile;
+
+/// Largest line and cache, bytes: beyond them a file can only be a slip.
+const LONGEST_LINE: u64 = 65_536;
+const LARGEST_CACHE: u64 = 1 << 30;
+
 /// One level of a memory hierarchy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CacheLevel {
@@ -11,6 +18,28 @@ pub struct CacheLevel {
     pub ways: u64,
     /// Seconds by which a miss is slower than a hit, when the next level has the line.
     pub miss_time: f64,
+}
+
+/// The levels of a machine file: whole lines in whole sets, no line shorter than those of the level
+/// before.
+pub(crate) fn levels(files: &[CacheFile]) -> Result<Vec<CacheLevel>, MachineFault> {
+    let mut levels: Vec<CacheLevel> = Vec::new();
+    for (i, file) in files.iter().enumerate() {
+        let bytes = |name: &str, found: f64, unit: u64, most: u64| {
+            if found >= unit as f64 && found <= most as f64 && found % unit as f64 == 0.0 {
+                return Ok(found as u64);
+            }
+            let place = format!("processor.caches[{i}].{name}.value");
+            let expected = format!("expected a multiple of {unit} B, at most {most} B");
+            Err(MachineFault::at(&place, format!("found {found} B; {expected}")))
+        };
+        let ways = u64::from(file.ways.value.get());
+        let shortest = levels.last().map_or(1, |level| level.line);
+        let line = bytes("line", file.line.value.si, shortest, LONGEST_LINE)?;
+        let size = bytes("size", file.size.value.si, line * ways, LARGEST_CACHE)?;
+        levels.push(CacheLevel { size, line, ways, miss_time: file.miss_time.value.si });
+    }
+    Ok(levels)
 }
 
 /// What the caches of one processor hold, and how often they missed.

@@ -8,6 +8,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
 
+use crate::message_layer::MessageLayerFile;
 use crate::network::Model;
 use crate::sourced::{Bandwidth, Bytes, Cycles, Frequency, Positive, Quantity, Sourced, Time};
 
@@ -20,6 +21,10 @@ pub(crate) struct MachineFile {
     /// Where editors find the schema of this file.
     #[serde(rename = "$schema", default)]
     pub(crate) _schema: Option<String>,
+    /// A machine of which this file says only what differs: each of its fields takes the place of
+    /// that one's, objects field by field; null takes a field away.
+    #[serde(default)]
+    pub(crate) extends: Option<String>,
     /// What machine this is, for people.
     pub(crate) title: String,
     /// A mesh; one of "mesh", "torus", "crossbar" and "bus" must be there. Compute nodes fill its
@@ -42,8 +47,15 @@ pub(crate) struct MachineFile {
     pub(crate) service_nodes: Sourced<NonZeroU16>,
     /// The processor of every node.
     pub(crate) processor: ProcessorFile,
+    /// The memory of every node; without it memory costs nothing and never fills.
+    #[serde(default)]
+    pub(crate) node_memory: Option<NodeMemoryFile>,
     /// How messages travel.
     pub(crate) network: NetworkFile,
+    /// What the message layer of a node does besides the overheads of the network's parameters; what
+    /// is left out of it costs nothing.
+    #[serde(default)]
+    pub(crate) message_layer: MessageLayerFile,
     /// What has been measured on the real machine, to stand beside what is simulated.
     #[serde(default)]
     pub(crate) published: PublishedFile,
@@ -110,6 +122,29 @@ pub(crate) struct CacheFile {
     pub(crate) miss_time: Sourced<Quantity<Time>>,
 }
 
+/// Memory of a node. What programs keep beyond its capacity is paged out, least recently used first,
+/// and costs time when it is used again: a fault a burst, and its bytes at the bandwidth.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "an object that describes memory")]
+pub(crate) struct NodeMemoryFile {
+    /// Memory of a node in all.
+    pub(crate) installed: Sourced<Quantity<Bytes>>,
+    /// What the operating system takes of it.
+    pub(crate) system: Sourced<Quantity<Bytes>>,
+    /// What is set aside for messages that have arrived and were not read; what exceeds it takes from
+    /// the program's share.
+    pub(crate) message_buffers: Sourced<Quantity<Bytes>>,
+    /// What one fault brings in.
+    pub(crate) burst: Sourced<Quantity<Bytes>>,
+    /// Time of a fault until its first byte comes.
+    pub(crate) fault_time: Sourced<Quantity<Time>>,
+    /// Bytes a second at which the others follow.
+    pub(crate) bandwidth: Sourced<Quantity<Bandwidth>>,
+    /// Bytes of each thing that programs keep.
+    #[serde(deserialize_with = "without_repetition")]
+    pub(crate) sizes: BTreeMap<String, Sourced<Quantity<Bytes>>>,
+}
+
 /// The network: which model of it tells when messages arrive, and what the models need to know.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object that describes a network")]
@@ -156,9 +191,16 @@ pub(crate) struct LinksFile {
     pub(crate) virtual_channels: Sourced<NonZeroU8>,
 }
 
-/// The JSON Schema of a machine file.
+/// The JSON Schema of a machine file. One that extends another need not say everything.
 pub fn machine_schema() -> serde_json::Value {
-    schemars::schema_for!(MachineFile).to_value()
+    let mut schema = schemars::schema_for!(MachineFile).to_value();
+    if let Some(schema) = schema.as_object_mut()
+        && let Some(required) = schema.remove("required")
+    {
+        let either = serde_json::json!([{ "required": required }, { "required": ["extends"] }]);
+        schema.insert("anyOf".to_owned(), either);
+    }
+    schema
 }
 
 /// Reads a map and refuses a key that stands in it twice, which serde's own maps let pass.

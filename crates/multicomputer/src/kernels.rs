@@ -4,10 +4,11 @@
 
 use desim::{Simulation, Stalled, Time};
 
+use crate::buffers::Rank;
 use crate::machine::{Machine, MachineError};
 use crate::multicomputer::Multicomputer;
 use crate::network::Network;
-use crate::node::{Node, Rank};
+use crate::node::Node;
 use crate::topology::Shape;
 
 /// A kernel that could not be run to its end.

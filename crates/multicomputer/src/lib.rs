@@ -5,16 +5,19 @@
 //! [`Multicomputer`] is such a machine running over [`desim`], whose processes each hold a
 //! [`Node`].
 //!
-//! Memory and disks would be further costs of a [`Node`].
+//! Disks would be a further cost of a [`Node`].
 
 mod account;
 mod agenda;
 mod auto;
+mod buffers;
 mod cache;
 mod fault;
 mod file;
 mod kernels;
 mod machine;
+mod memory;
+mod message_layer;
 mod multicomputer;
 mod network;
 mod node;
@@ -22,25 +25,29 @@ mod processor;
 pub mod quantity;
 mod record;
 mod replay;
+mod shared;
 mod sourced;
 mod topology;
 mod trace;
 mod traffic;
 
-pub use account::NodeAccount;
+pub use account::{LayerAccount, NodeAccount};
 pub use auto::{Choice, choose};
+pub use buffers::{FullBuffers, Rank};
 pub use cache::{CacheLevel, Caches};
 pub use fault::MachineFault;
 pub use file::machine_schema;
 pub use kernels::{KernelError, exchange, hot_spot, ping_pong};
 pub use machine::{Machine, MachineError, Published};
+pub use memory::{NodeMemory, Segment};
+pub use message_layer::{MessageLayer, Packets};
 pub use multicomputer::Multicomputer;
 pub use network::{
     Arrival, Channel, ChannelUse, Deadlock, Delivery, Flit, Foretold, Formula, Ideal,
     LinkParameters, LogGp, LogGpParameters, Message, Model, Network, NetworkParameters, Rung,
     Stall, Waiting, Wormhole,
 };
-pub use node::{Node, Rank};
+pub use node::Node;
 pub use processor::Processor;
 pub use record::{Letter, Record, Recorder};
 pub use replay::{Course, ReplayDeadlock, replay};

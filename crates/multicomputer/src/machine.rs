@@ -2,11 +2,14 @@
 
 use thiserror::Error;
 
-use crate::cache::CacheLevel;
+use crate::cache;
 use crate::fault::{MachineFault, read};
-use crate::file::{CacheFile, LinksFile, LogGpFile, MachineFile, NetworkFile, ProcessorFile};
+use crate::file::{LinksFile, LogGpFile, MachineFile, NetworkFile, NodeMemoryFile, ProcessorFile};
+use crate::memory::NodeMemory;
+use crate::message_layer::MessageLayer;
 use crate::network::{LinkParameters, LogGpParameters, Network, NetworkParameters, Rung};
 use crate::processor::Processor;
+use crate::sourced::{Bytes, Quantity};
 use crate::topology::{Place, Shape, Topology};
 
 /// Largest network, in places: beyond it a file can only be a slip.
@@ -14,11 +17,10 @@ const MOST_PLACES: u32 = 65_536;
 /// Longest flit, bytes: as long as a link's bandwidth can be told from a message's.
 const LONGEST_FLIT: f64 = 1e9;
 
-/// Largest line and cache, bytes: beyond them a file can only be a slip.
-const LONGEST_LINE: f64 = 65_536.0;
-const LARGEST_CACHE: f64 = 1e9;
 /// Most virtual channels a link: real routers have a handful.
 const MOST_VIRTUAL_CHANNELS: u8 = 16;
+/// Largest thing that a program keeps many of, bytes: sums of them stay countable.
+const LARGEST_THING: u64 = 1_000_000_000;
 
 /// A distributed-memory machine.
 #[derive(Clone, Debug)]
@@ -27,10 +29,14 @@ pub struct Machine {
     pub title: String,
     /// The processor of every node.
     pub processor: Processor,
+    /// The memory of every node; none where it is not modelled.
+    pub node_memory: Option<NodeMemory>,
     /// What its network needs to know on any rung.
     pub parameters: NetworkParameters,
     /// The rung of its network that the file chooses; none if that is left to be found out.
     pub rung: Option<Rung>,
+    /// What its nodes' message layer does besides LogGP's overheads, on every rung.
+    pub message_layer: MessageLayer,
     /// What has been measured on the real machine.
     pub published: Published,
     topology: Topology,
@@ -153,9 +159,15 @@ impl Machine {
 
 /// The machine, if its nodes have room on its network and that is fully described.
 fn validate(file: MachineFile) -> Result<Machine, MachineFault> {
+    if let Some(base) = &file.extends {
+        let message = format!("found \"{base}\"; expected a whole machine, with that one's fields");
+        return refuse("extends", message);
+    }
     let (shape, hop_time) = shape(&file)?;
+    let node_memory = file.node_memory.as_ref().map(node_memory).transpose()?;
     let (title, processor) = (file.title, processor(file.processor)?);
     let (rung, parameters) = network(&file.network, hop_time)?;
+    let message_layer = file.message_layer.check()?;
     let published = Published {
         latency: file.published.latency.map(|latency| latency.value.duration()),
         bandwidth: file.published.bandwidth.map(|bandwidth| bandwidth.value.si),
@@ -163,8 +175,10 @@ fn validate(file: MachineFile) -> Result<Machine, MachineFault> {
     Ok(Machine {
         title,
         processor,
+        node_memory,
         parameters,
         rung,
+        message_layer,
         published,
         topology: Topology::new(shape),
         compute_nodes: file.compute_nodes.value.get().into(),
@@ -276,31 +290,36 @@ fn processor(file: ProcessorFile) -> Result<Processor, MachineFault> {
         clock: file.clock.value.si,
         scale: file.scale.value.0,
         cycles: cycles.collect(),
-        caches: caches(&file.caches)?,
+        caches: cache::levels(&file.caches)?,
     })
 }
 
-/// Caches of whole lines in whole sets, no line shorter than one of the level before.
-fn caches(files: &[CacheFile]) -> Result<Vec<CacheLevel>, MachineFault> {
-    let mut levels: Vec<CacheLevel> = Vec::new();
-    for (i, file) in files.iter().enumerate() {
-        let [size, line] = [&file.size, &file.line].map(|bytes| bytes.value.si);
-        let ways = u64::from(file.ways.value.get());
-        let place = |field: &str| format!("processor.caches[{i}].{field}.value");
-        let least = levels.last().map_or(1, |level| level.line);
-        if !(least as f64..=LONGEST_LINE).contains(&line) || line % least as f64 != 0.0 {
-            let expected = format!("found {line} B; expected a multiple of {least} B");
-            return refuse(&place("line"), format!("{expected}, at most {LONGEST_LINE} B"));
-        }
-        let set = line * ways as f64;
-        if !(set..=LARGEST_CACHE).contains(&size) || size % set != 0.0 {
-            let expected = format!("found {size} B; expected a multiple of {set} B, {ways} lines");
-            return refuse(&place("size"), format!("{expected}, at most {LARGEST_CACHE} B"));
-        }
-        let (size, line) = (size as u64, line as u64);
-        levels.push(CacheLevel { size, line, ways, miss_time: file.miss_time.value.si });
+/// The memory of a node, if the operating system leaves some.
+fn node_memory(file: &NodeMemoryFile) -> Result<NodeMemory, MachineFault> {
+    let bytes = |size: &Quantity<Bytes>| size.si.round() as u64;
+    let (installed, system) = (bytes(&file.installed.value), bytes(&file.system.value));
+    if system >= installed {
+        let message =
+            format!("found {system} B of {installed} B; expected less, so that some is left");
+        return refuse("node_memory.system.value", message);
     }
-    Ok(levels)
+    let burst = bytes(&file.burst.value);
+    if burst == 0 {
+        return refuse("node_memory.burst.value", "found 0 B; expected at least 1 B");
+    }
+    if let Some((name, size)) = file.sizes.iter().find(|(_, s)| bytes(&s.value) > LARGEST_THING) {
+        let found = format!("found {} B; expected at most 1 GB", size.value.si);
+        return refuse(&format!("node_memory.sizes.{name}.value"), found);
+    }
+    let sizes = file.sizes.iter().map(|(name, size)| (name.clone(), bytes(&size.value)));
+    Ok(NodeMemory {
+        available: installed - system,
+        message_buffers: bytes(&file.message_buffers.value),
+        burst,
+        fault_time: file.fault_time.value.duration(),
+        bandwidth: file.bandwidth.value.si,
+        sizes: sizes.collect(),
+    })
 }
 
 fn loggp(file: &LogGpFile, hop_time: desim::Duration) -> LogGpParameters {

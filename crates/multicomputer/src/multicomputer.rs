@@ -6,9 +6,11 @@ use std::rc::{Rc, Weak};
 use desim::{Alarm, Handle};
 
 use crate::account::NodeAccount;
+use crate::buffers::{FullBuffers, Rank};
 use crate::machine::{Machine, MachineError};
 use crate::network::{ChannelUse, Deadlock, Network};
-use crate::node::{Node, NodeState, Rank, Shared, Wires};
+use crate::node::Node;
+use crate::shared::{NodeState, Shared, Wires};
 
 /// A machine on which processes run that send each other messages of type `M`. Clones are the same
 /// machine.
@@ -48,14 +50,21 @@ impl<M: 'static> Multicomputer<M> {
         let nodes = machine
             .places(compute_ranks)?
             .enumerate()
-            .map(|(rank, place)| NodeState::new(handle, rank, place))
+            .map(|(rank, place)| NodeState::new(handle, machine, rank, place))
             .collect();
         Ok(Multicomputer(Rc::new_cyclic(|shared: &Weak<Shared<M>>| {
             let shared = shared.clone();
             let news = Alarm::new(handle, move || {
                 shared.upgrade().iter().for_each(|shared| shared.advance());
             });
-            Shared { handle: handle.clone(), wires: RefCell::new(Wires::new(network)), news, nodes }
+            Shared {
+                handle: handle.clone(),
+                layer: machine.message_layer.clone(),
+                wires: RefCell::new(Wires::new(network)),
+                news,
+                nodes,
+                full_buffers: RefCell::default(),
+            }
         })))
     }
 
@@ -72,7 +81,7 @@ impl<M: 'static> Multicomputer<M> {
     /// Where every node's time has gone until now, in the order of ranks.
     pub fn accounts(&self) -> Vec<NodeAccount> {
         let now = self.0.handle.now();
-        self.0.nodes.iter().map(|node| node.ledger.borrow_mut().account(now)).collect()
+        self.0.nodes.iter().map(|node| node.account(now)).collect()
     }
 
     /// What each channel of the network has done until now.
@@ -80,7 +89,13 @@ impl<M: 'static> Multicomputer<M> {
         self.0.wires.borrow().network.channel_use()
     }
 
-    /// The deadlock that halted the simulation, if one did.
+    /// The processes that wait for room in each other's buffers and halted the simulation, if some
+    /// did.
+    pub fn full_buffers(&self) -> Option<FullBuffers> {
+        self.0.full_buffers.borrow().clone()
+    }
+
+    /// The deadlock in the network that halted the simulation, if one did.
     pub fn deadlock(&self) -> Option<Deadlock> {
         self.0.wires.borrow().deadlock.clone()
     }

@@ -1,116 +1,19 @@
 //! A node as the process that runs on it sees it: compute, send, receive, wait.
 
 use std::cell::RefCell;
-use std::collections::VecDeque;
-use std::mem;
 use std::rc::Rc;
 
-use desim::{Alarm, Duration, Handle, Signal, Time};
+use desim::{Duration, Time};
 
-use crate::account::{Activity, Ledger};
-use crate::network::{Arrival, Deadlock, Message, Network};
-use crate::topology::Place;
-
-/// Number of a process, from 0.
-pub type Rank = usize;
+use crate::account::Activity;
+use crate::buffers::{FullBuffers, Rank};
+use crate::memory::{Residence, Segment};
+use crate::shared::{Letter, NodeState, Shared, Waiting};
 
 /// A node of a running [`crate::Multicomputer`]; cheap to clone and to move into its process.
 pub struct Node<M> {
     rank: Rank,
     shared: Rc<Shared<M>>,
-}
-
-/// What all nodes of a multicomputer share.
-pub(crate) struct Shared<M> {
-    pub(crate) handle: Handle,
-    pub(crate) wires: RefCell<Wires<M>>,
-    /// Goes off when the network has something to do.
-    pub(crate) news: Alarm,
-    pub(crate) nodes: Vec<NodeState<M>>,
-}
-
-/// The network, and what is under way on it.
-pub(crate) struct Wires<M> {
-    pub(crate) network: Box<dyn Network>,
-    /// Messages under way with the ranks they go to, and some that have arrived: in the order in
-    /// which they were sent, so that the network may know each by a number of its own.
-    under_way: VecDeque<Option<(Rank, M)>>,
-    /// The number of the first of them.
-    first: u64,
-    arrived: Vec<Arrival>,
-    /// The messages that will never arrive.
-    pub(crate) deadlock: Option<Deadlock>,
-}
-
-impl<M> Wires<M> {
-    pub(crate) fn new(network: Box<dyn Network>) -> Wires<M> {
-        let (under_way, arrived) = (VecDeque::new(), Vec::new());
-        Wires { network, under_way, first: 0, arrived, deadlock: None }
-    }
-
-    /// Sends a message; returns when the sending processor may go on.
-    fn send(&mut self, now: Time, ends: (Place, Place), bytes: u64, letter: (Rank, M)) -> Time {
-        let id = self.first + self.under_way.len() as u64;
-        self.under_way.push_back(Some(letter));
-        let (from, to) = ends;
-        self.network.send(now, Message { id, from, to, bytes })
-    }
-
-    /// Hands over a message that has arrived.
-    fn take(&mut self, id: u64) -> Option<(Rank, M)> {
-        let letter = self.under_way.get_mut(id.checked_sub(self.first)? as usize)?.take();
-        while let Some(None) = self.under_way.front() {
-            self.under_way.pop_front();
-            self.first += 1;
-        }
-        letter
-    }
-}
-
-impl<M> Shared<M> {
-    /// The network goes on until now; what has arrived is put into mailboxes.
-    pub(crate) fn advance(&self) {
-        let mut wires = self.wires.borrow_mut();
-        let mut arrived = mem::take(&mut wires.arrived);
-        if let Err(deadlock) = wires.network.advance(self.handle.now(), &mut arrived) {
-            self.handle.halt(deadlock.to_string());
-            wires.deadlock = Some(deadlock);
-        }
-        for arrival in arrived.drain(..) {
-            if let Some((to, message)) = wires.take(arrival.message.id) {
-                self.nodes[to].arrive(message);
-            }
-        }
-        wires.arrived = arrived;
-        self.expect_news(&wires);
-    }
-
-    fn expect_news(&self, wires: &Wires<M>) {
-        if let Some(time) = wires.network.next_event() {
-            self.news.set(time);
-        }
-    }
-}
-
-/// What a multicomputer keeps for a node.
-pub(crate) struct NodeState<M> {
-    place: Place,
-    pub(crate) ledger: RefCell<Ledger>,
-    /// Messages that have arrived and were not taken, in order of arrival.
-    mailbox: RefCell<Vec<M>>,
-    mail: Signal,
-}
-
-impl<M> NodeState<M> {
-    pub(crate) fn new(handle: &Handle, rank: Rank, place: Place) -> NodeState<M> {
-        let mail = Signal::new(handle, format!("mail at node {rank}"));
-        NodeState { place, ledger: RefCell::default(), mailbox: RefCell::default(), mail }
-    }
-
-    fn arrive(&self, message: M) {
-        self.mailbox.borrow_mut().push(message);
-        self.mail.notify();
-    }
 }
 
 impl<M> Clone for Node<M> {
@@ -139,34 +42,74 @@ impl<M: 'static> Node<M> {
         self.busy(Activity::Compute, self.now() + span).await;
     }
 
-    /// Sends a message. The processor is busy with it for the send overhead and then goes on; the
-    /// message travels by itself.
+    /// Keeps the processor waiting for a span, for what its caches miss.
+    pub async fn miss(&self, span: Duration) {
+        self.busy(Activity::Missing, self.now() + span).await;
+    }
+
+    /// Sends a message. The processor is busy with it until the send overhead is over, and then goes
+    /// on; the message travels by itself. With a coprocessor that has nothing to do with it but to hand
+    /// it over; without one, it first waits for room in the receiver's buffers and makes packets.
     ///
     /// # Panics
     /// When no process has the rank `to`.
     pub async fn send(&self, to: Rank, bytes: u64, message: M) {
-        let (from, receiver) = (self.state(), &self.shared.nodes[to]);
-        let sender_free = {
-            let mut wires = self.shared.wires.borrow_mut();
-            let ends = (from.place, receiver.place);
-            let sender_free = wires.send(self.now(), ends, bytes, (to, message));
-            self.shared.expect_news(&wires);
-            sender_free
-        };
-        from.ledger.borrow_mut().sent(bytes);
+        let letter = Letter { from: self.rank, to, bytes, message };
+        let layer = &self.shared.layer;
+        if let Some(handover) = layer.handover {
+            self.busy(Activity::Send, self.now() + handover).await;
+            self.state().ledger.borrow_mut().sent(bytes);
+            return self.shared.hand_over(letter);
+        }
+        self.wait_for_room(to, bytes).await;
+        let packing = layer.packing(bytes);
+        if packing > Duration::ZERO {
+            self.busy(Activity::Pack, self.now() + packing).await;
+        }
+        let sender_free = self.shared.inject(letter);
+        self.state().ledger.borrow_mut().sent(bytes);
         self.busy(Activity::Send, sender_free).await;
     }
 
+    /// Waits until a message of so many bytes finds room in the receiver's buffers, and takes it.
+    async fn wait_for_room(&self, to: Rank, bytes: u64) {
+        let (sender, receiver) = (self.state(), &self.shared.nodes[to]);
+        let Some(buffers) = &receiver.buffers else { return };
+        if buffers.borrow_mut().try_take(bytes) {
+            return;
+        }
+        buffers.borrow_mut().queue(bytes, Waiting::Processor(self.rank));
+        sender.waits_for.set(Some(to));
+        let waits_for = |rank: Rank| self.shared.nodes[rank].waits_for.get();
+        if let Some(full) = FullBuffers::find(self.rank, waits_for) {
+            self.shared.handle.halt(full.to_string());
+            *self.shared.full_buffers.borrow_mut() = Some(full);
+        }
+        sender.ledger.borrow_mut().held();
+        sender.ledger.borrow_mut().turn_to(Activity::WaitForRoom, self.now());
+        while sender.waits_for.get().is_some() {
+            receiver.room.wait().await;
+        }
+        sender.ledger.borrow_mut().turn_to(Activity::Idle, self.now());
+    }
+
     /// Takes what has arrived, in order of arrival. The processor is busy for the receive overhead
-    /// of each message; what arrives meanwhile is left for the next call. Returns at once when
-    /// nothing has arrived.
+    /// of each message, and with copying those for which no receive was posted; what arrives
+    /// meanwhile is left for the next call. Returns at once when nothing has arrived.
     pub async fn received(&self) -> Vec<M> {
-        let messages = mem::take(&mut *self.state().mailbox.borrow_mut());
+        let (node, layer) = (self.state(), &self.shared.layer);
+        let messages = node.take_mail();
         if !messages.is_empty() {
-            let count = messages.len() as u64;
-            let overhead = self.shared.wires.borrow().network.receive_overhead();
-            self.state().ledger.borrow_mut().received(count);
+            let (count, unposted) = (messages.len() as u64, node.unposted.take());
+            let overhead = || self.shared.wires.borrow().network.receive_overhead();
+            let overhead = layer.handover.unwrap_or_else(overhead);
+            node.ledger.borrow_mut().received(count, unposted.messages);
             self.busy(Activity::Receive, self.now() + overhead * count).await;
+            let copying = layer.copying(unposted.bytes);
+            if copying > Duration::ZERO {
+                self.busy(Activity::Copy, self.now() + copying).await;
+            }
+            self.shared.release(self.rank, unposted.bytes);
         }
         messages
     }
@@ -176,9 +119,11 @@ impl<M: 'static> Node<M> {
         !self.state().mailbox.borrow().is_empty()
     }
 
-    /// Idle until something has arrived and was not taken; returns at once if that is so now.
+    /// Idle until something has arrived and was not taken; returns at once if that is so now. A
+    /// receive is posted meanwhile, so that the first message to arrive needs no copy.
     pub async fn wait(&self) {
         while !self.has_mail() {
+            self.state().posted.set(true);
             self.state().mail.wait().await;
         }
     }
@@ -186,16 +131,45 @@ impl<M: 'static> Node<M> {
     /// Like [`Node::wait`], at most until `time`; says whether there is mail.
     pub async fn wait_until(&self, time: Time) -> bool {
         while !self.has_mail() {
+            self.state().posted.set(true);
             if !self.state().mail.wait_until(time).await {
+                self.state().posted.set(false);
                 return self.has_mail();
             }
         }
         true
     }
 
-    /// The node's work is done: its account closes at the present time.
+    /// The program makes something that it keeps in memory.
+    pub fn keep(&self, segment: Segment, bytes: u64) {
+        self.residence().for_each(|residence| residence.borrow_mut().keep(segment, bytes));
+    }
+
+    /// The program uses segments, one after the other. Where memory is modelled and one of them is
+    /// not resident, the processor waits until it is.
+    pub async fn touch(&self, segments: impl IntoIterator<Item = Segment>) {
+        let Some(residence) = self.residence().next() else { return };
+        let wait = |segment| residence.borrow_mut().touch(segment);
+        let span: Duration = segments.into_iter().map(wait).sum();
+        if span > Duration::ZERO {
+            self.busy(Activity::Paging, self.now() + span).await;
+        }
+    }
+
+    /// The program needs something no more that it kept in memory.
+    pub fn release(&self, segment: Segment) {
+        self.residence().for_each(|residence| residence.borrow_mut().release(segment));
+    }
+
+    fn residence(&self) -> impl Iterator<Item = &RefCell<Residence>> {
+        self.state().residence.iter()
+    }
+
+    /// The node's work is done: its account closes at the present time, and nobody waits for room in
+    /// its buffers any more.
     pub fn finish(&self) {
         self.state().ledger.borrow_mut().finish(self.now());
+        self.shared.open(self.rank);
     }
 
     fn state(&self) -> &NodeState<M> {

@@ -33,6 +33,33 @@ fn the_paragon() {
     assert_eq!(latency.to_string(), "42 µs");
 }
 
+/// The nodes of 16 MB are the same in all else.
+#[test]
+fn the_paragon_with_memory() {
+    let text = fs::read_to_string(machines("paragon-gp16.json")).expect("the file is shipped");
+    let mut file: Value = serde_json::from_str(&text).expect("it is JSON");
+    let memory = read(&file).unwrap().node_memory.unwrap();
+    assert_eq!(memory.available, 17 << 19);
+    assert_eq!(memory.sizes["patch"], 300);
+    assert_eq!(memory.page_in(8_192).to_string(), "20.730666667 ms");
+
+    for (field, value, expected) in [
+        ("system", "16 MiB", "found 16777216 B of 16777216 B; expected less, so that some is left"),
+        ("burst", "0 B", "found 0 B; expected at least 1 B"),
+        ("sizes.cell", "2 GB", "found 2000000000 B; expected at most 1 GB"),
+    ] {
+        let pointer = format!("/node_memory/{}/value", field.replace('.', "/"));
+        let mut wrong = file.clone();
+        *wrong.pointer_mut(&pointer).expect("the pointer meets a value") = json!(value);
+        assert_eq!(message(&wrong), format!("m.json: node_memory.{field}.value: {expected}"));
+    }
+
+    let fields = file.as_object_mut().expect("it is an object");
+    fields.shift_remove("node_memory");
+    fields["title"] = paragon()["title"].clone();
+    assert_eq!(file, paragon());
+}
+
 #[test]
 fn an_ideal_network_needs_no_parameters() {
     let mut file = paragon();

@@ -124,6 +124,11 @@ impl LocalEnvironment {
         self.patch_of(self.piece(polygon)?, point)
     }
 
+    /// How many polygons reach into it, those that show it only their backs included.
+    pub fn polygons(&self) -> usize {
+        self.pieces.len()
+    }
+
     /// The number of a polygon among those of this environment.
     pub(crate) fn piece(&self, polygon: u32) -> Option<u32> {
         let found = self.pieces.binary_search_by_key(&polygon, |piece| piece.polygon);

@@ -22,6 +22,7 @@ mod mask;
 mod mtl;
 mod nearest;
 mod obj;
+mod outline;
 mod picture;
 mod plain;
 mod pyramid;

@@ -6,6 +6,7 @@ use multicomputer::Rank;
 use radiosity::{Operation, Shot, Work};
 
 use crate::counts::Counts;
+use crate::footprint::{self, Footprint};
 use crate::kept_shots::KeptShots;
 use crate::message::{Message, Parcel, Sums};
 use crate::problem::Problem;
@@ -77,6 +78,7 @@ pub(crate) struct Tally {
 #[doc(alias = "Figure 9")]
 #[doc(alias = "ComputeNode")]
 pub async fn compute_node(process: &impl Process, mut node: ComputeNode) -> ComputeNode {
+    node.settle(process);
     loop {
         while let Some(source) = node.choose_best_source(process).await {
             let shot = node.compute_illumination(process, &source).await;
@@ -104,10 +106,23 @@ impl ComputeNode {
         }
     }
 
+    /// What the initialisation has left in memory.
+    fn settle(&self, process: &impl Process) {
+        let problem = &self.shared.problem;
+        for (number, _) in self.region.lights() {
+            let footprint = || Footprint::of_environment(problem, number);
+            process.keep(footprint::environment(number), footprint);
+        }
+        process.keep(footprint::PROGRAM, || Footprint::of_the_program(problem));
+    }
+
     /// §4.2.2: the greatest source, from the region or from the queue.
     async fn choose_best_source(&mut self, process: &impl Process) -> Option<Parcel> {
         let rules = &self.shared.rules;
         let received = self.queue.best(rules.selection);
+        // Choice C25: the list of queued sources is searched through, and each lies in its own pages.
+        let searched = self.region.changed().filter(|_| self.selecting).map(footprint::environment);
+        process.touch(searched.chain(self.queue.turns().map(footprint::queued))).await;
         let (local, mut scan) = if self.selecting {
             (self.region.best_patch(), self.region.scan())
         } else {
@@ -117,11 +132,11 @@ impl ComputeNode {
         self.tally.work += scan;
         process.compute(|| ((), scan)).await;
         let choice = match (received, local) {
-            (Some((_, place)), None) => Some(self.take_received(place)),
+            (Some((_, place)), None) => Some(self.take_received(process, place)),
             (Some((queued, place)), Some((value, ..)))
                 if queued > value || queued == value && rules.ties == Ties::ReceivedFirst =>
             {
-                Some(self.take_received(place))
+                Some(self.take_received(process, place))
             }
             (_, Some((_, holding, patch))) => {
                 self.tally.counts.local_shots += 1;
@@ -140,8 +155,9 @@ impl ComputeNode {
         }
     }
 
-    fn take_received(&mut self, place: usize) -> Parcel {
-        let parcel = self.queue.take(place);
+    fn take_received(&mut self, process: &impl Process, place: usize) -> Parcel {
+        let (turn, parcel) = self.queue.take(place);
+        process.release(footprint::queued(turn));
         self.tally.counts.received_shots += 1;
         self.tally.parcels_taken += 1;
         self.tally.taken += parcel.source.power * parcel.form_factor;
@@ -150,6 +166,7 @@ impl ComputeNode {
 
     /// §4.2.3: cast the rays of the pixels that are still true, and update radiosities.
     async fn compute_illumination(&mut self, process: &impl Process, source: &Parcel) -> Shot {
+        process.touch([footprint::PROGRAM, footprint::environment(source.environment)]).await;
         let Shared { problem, kept, on_shot, .. } = &*self.shared;
         let kernel = || {
             let shot = kept.shot(problem, source);
@@ -178,7 +195,7 @@ impl ComputeNode {
             self.tally.sent += onward.source.power * onward.form_factor;
             let owner = shared.owners[onward.environment as usize];
             if owner == process.rank() {
-                self.enqueue(onward);
+                self.enqueue(process, onward);
             } else {
                 let bytes = Message::Source(Box::new(onward)).encode();
                 self.tally.counts.messages += 1;
@@ -206,7 +223,7 @@ impl ComputeNode {
             // Processes send each other nothing but encoded messages.
             let Ok(message) = Message::decode(&bytes) else { continue };
             match message {
-                Message::Source(parcel) => self.enqueue(*parcel),
+                Message::Source(parcel) => self.enqueue(process, *parcel),
                 Message::Collect => {
                     let sums = Message::Sums(self.sums(process.rank()));
                     self.send_control(process, self.shared.service_node(), &sums).await;
@@ -219,10 +236,12 @@ impl ComputeNode {
         }
     }
 
-    fn enqueue(&mut self, parcel: Parcel) {
-        if self.queue.push(parcel, self.shared.rules.merge_masks) {
+    fn enqueue(&mut self, process: &impl Process, parcel: Parcel) {
+        let footprint = Footprint::of_source(&parcel);
+        match self.queue.push(parcel, self.shared.rules.merge_masks) {
+            Some(turn) => process.keep(footprint::queued(turn), || footprint),
             // Taken up by another parcel, and with it when that is shot.
-            self.tally.parcels_taken += 1;
+            None => self.tally.parcels_taken += 1,
         }
     }
 

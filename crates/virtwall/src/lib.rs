@@ -6,6 +6,7 @@
 mod compute_node;
 mod counts;
 mod decomposition;
+mod footprint;
 mod helpers;
 mod kept_shots;
 mod memory;
@@ -28,6 +29,7 @@ mod threads;
 pub use compute_node::{ComputeNode, compute_node};
 pub use counts::Counts;
 pub use decomposition::{Decomposition, Mapping};
+pub use footprint::{Footprint, Thing};
 pub use helpers::Helpers;
 pub use kept_shots::{Archive, KeptShots, ShotCounts};
 pub use memory::Memory;

@@ -1,6 +1,7 @@
 //! What a run found.
 
 use desim::{Duration, Time};
+use multicomputer::LayerAccount;
 use radiosity::{Rgb, Work};
 
 use crate::compute_node::ComputeNode;
@@ -73,12 +74,18 @@ pub enum Ending {
 pub struct NodeReport {
     /// Time in kernels.
     pub compute: Duration,
-    /// The part of it spent waiting for what caches missed.
+    /// Time in which kernels waited for what was not in the processor's caches.
     pub missing: Duration,
-    /// Time in sending and receiving.
+    /// Time in sending and receiving, waits for room in buffers included.
     pub overhead: Duration,
+    /// Time spent waiting for pages that were not in memory.
+    pub paging: Duration,
+    /// The most bytes that program and message buffers have held, where memory is modelled.
+    pub memory_high_water: Option<u64>,
     /// Time spent waiting until the node knew of the end.
     pub idle: Duration,
+    /// What the message layer did besides sending and receiving.
+    pub layer: LayerAccount,
     /// Shots of its own patches.
     pub local_shots: u64,
     /// Shots of sources handed on to it.
@@ -125,15 +132,22 @@ impl Outcome {
         }
     }
 
-    /// Time that all compute nodes spent waiting for what caches missed.
+    /// What the message layer did on all compute nodes.
+    pub fn layer(&self) -> LayerAccount {
+        let mut all = LayerAccount::default();
+        self.nodes.iter().for_each(|node| all.add(&node.layer));
+        all
+    }
+
+    /// Time in which the kernels of all compute nodes waited for what caches missed.
     pub fn missing(&self) -> Duration {
         self.nodes.iter().map(|node| node.missing).sum()
     }
 
-    /// Time in kernels as a fraction of all compute nodes' time.
+    /// Time in kernels, misses included, as a fraction of all compute nodes' time.
     pub fn busy_fraction(&self) -> f64 {
         let all = self.time.as_seconds_f64() * self.nodes.len() as f64;
-        let busy: Duration = self.nodes.iter().map(|node| node.compute).sum();
+        let busy: Duration = self.nodes.iter().map(|node| node.compute + node.missing).sum();
         if all > 0.0 { busy.as_seconds_f64() / all } else { 0.0 }
     }
 }

@@ -1,9 +1,10 @@
 //! What a process on a node may do. The programs know their machine only through this.
 
 use desim::Time;
-use multicomputer::Rank;
+use multicomputer::{Rank, Segment};
 use radiosity::Work;
 
+use crate::footprint::Footprint;
 use crate::message::Parcel;
 
 /// A process on a node, simulated or real. Messages are bytes: what is not encoded does not travel.
@@ -15,8 +16,19 @@ pub trait Process {
     /// Run a kernel here; the work that it counted is charged to this node.
     async fn compute<T>(&self, job: impl FnOnce() -> (T, Work)) -> T;
 
-    /// Wait for what a shot, just computed, and the search after it find missing in the caches.
+    /// Wait for what a shot, just computed, and the search after it find missing in the caches. A
+    /// process whose caches are not modelled takes no notice.
     async fn fetch(&self, _source: &Parcel) {}
+
+    /// The program makes something that it keeps in memory. As with the two that follow, a process
+    /// whose memory is not modelled takes no notice.
+    fn keep(&self, _segment: Segment, _footprint: impl FnOnce() -> Footprint) {}
+
+    /// The program uses what it keeps; costs this node the paging of what is not in memory.
+    async fn touch(&self, _segments: impl IntoIterator<Item = Segment>) {}
+
+    /// The program needs something no more that it kept.
+    fn release(&self, _segment: Segment) {}
 
     /// Send a message; costs this node its overhead, then travels.
     async fn send(&self, to: Rank, message: Vec<u8>);

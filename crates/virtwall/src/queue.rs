@@ -6,7 +6,9 @@ use crate::rules::Selection;
 /// Sources received and not yet shot, in order of arrival.
 #[derive(Default)]
 pub(crate) struct Queue {
-    waiting: Vec<Parcel>,
+    /// With the turn in which each came.
+    waiting: Vec<(u64, Parcel)>,
+    turns: u64,
 }
 
 impl Queue {
@@ -15,19 +17,20 @@ impl Queue {
     }
 
     /// Put a parcel in. With `merge` its mask joins that of a parcel from the same shot, if one
-    /// waits for the same environment; returns whether it did.
-    pub(crate) fn push(&mut self, parcel: Parcel, merge: bool) -> bool {
-        let same = |other: &&mut Parcel| {
+    /// waits for the same environment; else returns its turn.
+    pub(crate) fn push(&mut self, parcel: Parcel, merge: bool) -> Option<u64> {
+        let same = |(_, other): &&mut (u64, Parcel)| {
             other.environment == parcel.environment && other.source == parcel.source
         };
         let merged = self.waiting.iter_mut().find(|other| merge && same(other));
-        let Some(other) = merged else {
-            self.waiting.push(parcel);
-            return false;
+        let Some((_, other)) = merged else {
+            self.turns += 1;
+            self.waiting.push((self.turns, parcel));
+            return Some(self.turns);
         };
         other.mask.merge(&parcel.mask);
         other.form_factor += parcel.form_factor;
-        true
+        None
     }
 
     /// The greatest value that waits, and its place; of equals the first to arrive.
@@ -35,12 +38,17 @@ impl Queue {
     /// Choice C13: a received source is worth its emitter's whole energy, however few pixels are
     /// left: that is what the message states.
     pub(crate) fn best(&self, selection: Selection) -> Option<(f64, usize)> {
-        let values = self.waiting.iter().map(|parcel| selection.value(&parcel.source));
+        let values = self.waiting.iter().map(|(_, parcel)| selection.value(&parcel.source));
         values.zip(0..).reduce(|best, other| if other.0 > best.0 { other } else { best })
     }
 
-    /// Take a parcel out.
-    pub(crate) fn take(&mut self, place: usize) -> Parcel {
+    /// The turns of all that wait.
+    pub(crate) fn turns(&self) -> impl Iterator<Item = u64> {
+        self.waiting.iter().map(|(turn, _)| *turn)
+    }
+
+    /// Take a parcel out, and tell its turn.
+    pub(crate) fn take(&mut self, place: usize) -> (u64, Parcel) {
         self.waiting.remove(place)
     }
 }

@@ -83,6 +83,11 @@ impl Region {
         }
     }
 
+    /// The environments that it is looked for in: those whose light has changed.
+    pub(crate) fn changed(&self) -> impl Iterator<Item = u32> {
+        self.holdings.iter().filter(|held| held.changed).map(|held| held.environment)
+    }
+
     /// The work of looking for it. The host looks it up; the virtual processor is charged for a linear
     /// search.
     ///

@@ -8,6 +8,7 @@ use radiosity::Operation;
 use thiserror::Error;
 
 use crate::compute_node::{ComputeNode, Shared};
+use crate::footprint::Thing;
 use crate::kept_shots::KeptShots;
 use crate::problem::Problem;
 use crate::region::Region;
@@ -46,6 +47,9 @@ pub enum RunError {
     /// The machine file does not price an operation.
     #[error("the machine's processor has no price for \"{}\"; expected cycles under that name", .0.name())]
     Price(Operation),
+    /// The machine file does not size a thing.
+    #[error("the machine's memory has no size for \"{}\"; expected bytes under that name", .0.name())]
+    Size(Thing),
     /// Every process waits and nothing is under way.
     #[error(transparent)]
     Stalled(#[from] Stalled),

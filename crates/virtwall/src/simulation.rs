@@ -1,13 +1,14 @@
 //! The programs on a simulated machine.
 
-use std::cell::{Cell, RefCell};
+use std::cell::RefCell;
 use std::rc::Rc;
 
 use desim::{Duration, Simulation, Time};
-use multicomputer::{Machine, Multicomputer, Network, Node, Rank};
+use multicomputer::{Machine, Multicomputer, Network, Node, NodeMemory, Rank, Segment};
 use radiosity::{Operation, Work};
 
 use crate::compute_node::compute_node;
+use crate::footprint::{Footprint, Thing};
 use crate::message::Parcel;
 use crate::outcome::{NodeReport, Outcome};
 use crate::process::Process;
@@ -38,9 +39,9 @@ impl Prices {
 struct SimulatedProcess {
     node: Node<Vec<u8>>,
     prices: Rc<Prices>,
-    /// Where the processor has caches.
+    memory: Option<Rc<NodeMemory>>,
+    /// What the processor's caches hold, if it has any.
     storage: Option<RefCell<Storage>>,
-    missing: Cell<Duration>,
 }
 
 impl Process for SimulatedProcess {
@@ -55,10 +56,24 @@ impl Process for SimulatedProcess {
     }
 
     async fn fetch(&self, source: &Parcel) {
-        let Some(storage) = &self.storage else { return };
-        let span = Duration::from_seconds_f64(storage.borrow_mut().shoot(source));
-        self.missing.set(self.missing.get() + span);
-        self.node.compute(span).await;
+        if let Some(storage) = &self.storage {
+            let span = Duration::from_seconds_f64(storage.borrow_mut().shoot(source));
+            self.node.miss(span).await;
+        }
+    }
+
+    fn keep(&self, segment: Segment, footprint: impl FnOnce() -> Footprint) {
+        if let Some(memory) = &self.memory {
+            self.node.keep(segment, footprint().bytes(memory));
+        }
+    }
+
+    async fn touch(&self, segments: impl IntoIterator<Item = Segment>) {
+        self.node.touch(segments).await;
+    }
+
+    fn release(&self, segment: Segment) {
+        self.node.release(segment);
     }
 
     async fn send(&self, to: Rank, message: Vec<u8>) {
@@ -95,6 +110,11 @@ pub fn simulate_over(
 ) -> Result<Outcome, RunError> {
     let (nodes, collection) = run.prepare()?;
     let prices = Rc::new(Prices::of(machine)?);
+    let memory = machine.node_memory.as_ref();
+    if let Some(thing) = memory.and_then(Thing::without_size) {
+        return Err(RunError::Size(thing));
+    }
+    let memory = memory.cloned().map(Rc::new);
     let simulation = Simulation::new();
     let handle = simulation.handle();
     let multicomputer = Multicomputer::with_network(&handle, machine, run.processors, network)?;
@@ -103,8 +123,8 @@ pub fn simulate_over(
     let process = |rank| SimulatedProcess {
         node: multicomputer.node(rank),
         prices: Rc::clone(&prices),
+        memory: memory.clone(),
         storage: (!caches.is_empty()).then(|| RefCell::new(storage())),
-        missing: Cell::default(),
     };
     let finished = Rc::new(RefCell::new(Vec::new()));
     for (rank, node) in nodes.into_iter().enumerate() {
@@ -112,24 +132,28 @@ pub fn simulate_over(
         handle.spawn(format!("compute node {rank}"), async move {
             let node = compute_node(&process, node).await;
             process.node.finish();
-            let missing = process.missing.get();
-            finished.borrow_mut().push((process.rank(), process.now(), node, missing));
+            finished.borrow_mut().push((process.rank(), process.now(), node));
         });
     }
     let service = process(run.processors);
-    handle.spawn("service node", async move { service_node(&service, collection).await });
+    handle.spawn("service node", async move {
+        service_node(&service, collection).await;
+        service.node.finish();
+    });
     simulation.run()?;
     let mut finished = finished.take();
     finished.sort_unstable_by_key(|(rank, ..)| *rank);
-    let time = finished.iter().map(|(_, time, ..)| *time).max().unwrap_or(Time::ZERO);
-    let (nodes, missing): (Vec<_>, Vec<_>) =
-        finished.into_iter().map(|(_, _, node, missing)| (node, missing)).unzip();
+    let time = finished.iter().map(|(_, time, _)| *time).max().unwrap_or(Time::ZERO);
+    let nodes: Vec<_> = finished.into_iter().map(|(_, _, node)| node).collect();
     let reports =
-        multicomputer.accounts().into_iter().zip(missing).map(|(account, missing)| NodeReport {
+        multicomputer.accounts().into_iter().take(nodes.len()).map(|account| NodeReport {
             compute: account.compute,
-            missing,
-            overhead: account.send_overhead + account.receive_overhead,
+            missing: account.missing,
+            overhead: account.overhead(),
+            paging: account.paging,
+            memory_high_water: account.memory_high_water,
             idle: account.idle,
+            layer: account.layer,
             ..NodeReport::default()
         });
     let reports = reports.collect();

@@ -1,0 +1,150 @@
+//! `virtwall formfactors`: form factors between the objects of any OBJ.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use lab::OpenScene;
+use radiosity::{Scene, Space};
+use reference::{Estimate, ObjectRays, Objects, parallel};
+use serde_json::json;
+
+use crate::exit::Exit;
+use crate::steps::Steps;
+
+/// Between what, and how exactly.
+#[derive(Args)]
+pub struct Arguments {
+    /// An OBJ file, or the name or description of a scene; an object is the union of its faces
+    scene: String,
+    /// How to find them
+    #[arg(long, value_enum, default_value = "exact")]
+    method: Method,
+    /// Greatest error of an exact form factor; an error estimate says where it was not reached
+    #[arg(long, value_name = "ERROR", default_value = "1e-6", value_parser = tolerance)]
+    tolerance: f64,
+    /// Rays from each object, in round numbers
+    #[arg(long, value_name = "N", default_value_t = 1 << 20, value_parser = clap::value_parser!(u64).range(1..=1 << 40))]
+    rays: u64,
+    /// Seed of the points that the rays start from
+    #[arg(long, value_name = "N", default_value_t = 1996)]
+    seed: u64,
+    /// How to write them
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+    /// Write them to this file instead of printing them
+    #[arg(long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Threads [default: one for each of this host's processors]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Method {
+    /// Rays of the kernel from points all over each object; the error is a standard error
+    Rays,
+    /// Adaptive quadrature of Lambert's contour integral, with exact shadows; the error is a bound in
+    /// practice
+    Exact,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Format {
+    Csv,
+    Json,
+    Text,
+}
+
+/// A tolerance that arithmetic can reach.
+pub fn tolerance(text: &str) -> Result<f64, String> {
+    let value = text.parse().ok().filter(|value| (1e-12..=0.1).contains(value));
+    value.ok_or_else(|| "expected a number from 1e-12 to 0.1".to_owned())
+}
+
+/// Finds and writes them; returns what is to be printed.
+pub fn run(arguments: &Arguments) -> Result<String, Exit> {
+    let open = OpenScene::load(&arguments.scene)?;
+    let threads = arguments.threads.map_or_else(parallel::host_threads, usize::from);
+    let matrix = match arguments.method {
+        Method::Exact => exact(&open.scene, arguments.tolerance, threads),
+        Method::Rays => by_rays(&open, arguments, threads)?,
+    };
+    let text = written(&Objects::new(&open.scene), &matrix, arguments.format);
+    let Some(path) = &arguments.output else { return Ok(text) };
+    lab::write_file(path, text.as_bytes()).map_err(Exit::bad_input)?;
+    Ok(String::new())
+}
+
+/// Row by row.
+type Matrix = Vec<Vec<Estimate>>;
+
+fn exact(scene: &Scene, tolerance: f64, threads: usize) -> Matrix {
+    let objects = Objects::new(scene);
+    let count = objects.count();
+    let pairs: Vec<_> = (0..count).flat_map(|i| (i..count).map(move |j| (i, j))).collect();
+    let steps = Steps::new("pairs of objects", pairs.len());
+    let work = |pair: usize| {
+        let (from, to) = pairs[pair];
+        objects.exact(from, to, tolerance)
+    };
+    let found = parallel::map(pairs.len(), threads, work, || steps.one());
+    steps.end();
+    let mut matrix = vec![vec![Estimate::default(); count]; count];
+    for ((i, j), [there, back]) in pairs.into_iter().zip(found) {
+        matrix[j][i] = back;
+        matrix[i][j] = there;
+    }
+    matrix
+}
+
+fn by_rays(open: &OpenScene, arguments: &Arguments, threads: usize) -> Result<Matrix, Exit> {
+    let space = Space::new(open.scene.clone(), open.cells);
+    let objects = Objects::new(&space.scene);
+    let rays = ObjectRays::new(&objects, &space, arguments.rays, arguments.seed)
+        .map_err(Exit::bad_input)?;
+    let steps = Steps::new("objects", objects.count());
+    let matrix = parallel::map(objects.count(), threads, |from| rays.from(from), || steps.one());
+    steps.end();
+    Ok(matrix)
+}
+
+fn written(objects: &Objects, matrix: &Matrix, format: Format) -> String {
+    let count = objects.count();
+    let all = (0..count).flat_map(|from| (0..count).map(move |to| (from, to)));
+    let rows = all.map(|(from, to)| (objects.name(from), objects.name(to), matrix[from][to]));
+    match format {
+        Format::Csv => rows.fold(
+            "from,to,form_factor,error_estimate\n".to_owned(),
+            |text, (from, to, Estimate { value, error })| {
+                text + &format!("{},{},{value},{error:.2e}\n", quoted(from), quoted(to))
+            },
+        ),
+        Format::Json => {
+            let rows = rows.map(|(from, to, Estimate { value, error })| {
+                json!({ "from": from, "to": to, "form_factor": value, "error_estimate": error })
+            });
+            let area =
+                |object| json!({ "name": objects.name(object), "area_m2": objects.area(object) });
+            let areas = (0..count).map(area).collect::<Vec<_>>();
+            let rows = rows.collect::<Vec<_>>();
+            format!("{:#}\n", json!({ "objects": areas, "form_factors": rows }))
+        }
+        Format::Text => {
+            let widest = (0..count).map(|object| objects.name(object).chars().count()).max();
+            let width = widest.unwrap_or(0).max(4) + 2;
+            let head = format!("{:width$}{:width$}form factor   error estimate\n", "from", "to");
+            rows.fold(head, |text, (from, to, Estimate { value, error })| {
+                text + &format!("{from:width$}{to:width$}{value:<12.10}  {error:.1e}\n")
+            })
+        }
+    }
+}
+
+/// A cell of a CSV file.
+fn quoted(text: &str) -> String {
+    if text.contains(['"', ',', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
+}

@@ -1,0 +1,139 @@
+//! `virtwall formfactors` and `virtwall reference` from outside.
+
+#![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use tempfile::TempDir;
+
+/// Opposed unit squares, the lower one in two triangles; one of the names has a comma.
+const SQUARES: &str = "mtllib m.mtl
+o floor\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl wall\nf 1 2 3\nf 1 3 4
+o lamp, large\nv 0 0 1\nv 0 1 1\nv 1 1 1\nv 1 0 1\nusemtl lamp\nf 5 6 7 8\n";
+const MATERIALS: &str = "newmtl wall\nKd 0.5 0.4 0.3\nnewmtl lamp\nKd 0 0 0\nKe 10 9 8\n";
+/// Howell C-11.
+const EXACT: f64 = 0.199_824_895_7;
+
+fn folder() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("s.obj"), SQUARES).unwrap();
+    fs::write(folder.path().join("m.mtl"), MATERIALS).unwrap();
+    fs::write(folder.path().join("s.json"), r#"{"obj": "s.obj", "patch_size": "2 m"}"#).unwrap();
+    folder
+}
+
+fn virtwall(folder: &Path, arguments: &str) -> (i32, String, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_virtwall"));
+    command.current_dir(folder).args(arguments.split(' ')).stdin(Stdio::null());
+    let output = command.output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+}
+
+fn succeeds(folder: &Path, arguments: &str) -> String {
+    let (code, stdout, stderr) = virtwall(folder, arguments);
+    assert_eq!((code, stderr.as_str()), (0, ""), "{arguments}");
+    stdout
+}
+
+#[test]
+fn form_factors_of_objects() {
+    let folder = folder();
+    for (method, within) in [("exact --tolerance 1e-9", 1e-9), ("rays --rays 65536", 0.02)] {
+        let csv = succeeds(
+            folder.path(),
+            &format!("formfactors s.obj --method {method} --format csv --threads 1"),
+        );
+        let rows: Vec<&str> = csv.lines().collect();
+        assert_eq!(rows[0], "from,to,form_factor,error_estimate");
+        assert_eq!(rows.len(), 5);
+        assert!(rows[1].starts_with("floor,floor,0,"), "{csv}");
+        for (row, start) in
+            [(rows[2], "floor,\"lamp, large\","), (rows[3], "\"lamp, large\",floor,")]
+        {
+            let numbers = row.strip_prefix(start).unwrap().split(',');
+            let [value, error] = numbers.map(|n| n.parse::<f64>().unwrap()).collect::<Vec<_>>()[..]
+            else {
+                panic!("{row}")
+            };
+            assert!((value - EXACT).abs() <= 4.0 * error + 1e-10 && error <= within, "{row}");
+        }
+        let command = format!("formfactors s.obj --method {method} --format csv --output f.csv");
+        assert_eq!(succeeds(folder.path(), &command), "");
+        assert_eq!(fs::read_to_string(folder.path().join("f.csv")).unwrap(), csv);
+    }
+    let json = succeeds(folder.path(), "formfactors s.obj --format json");
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(json["form_factors"][1]["to"], "lamp, large");
+    assert!(succeeds(folder.path(), "formfactors s.json").contains("0.19982"));
+}
+
+#[test]
+fn references_are_stored_with_their_errors() {
+    let folder = folder();
+    let said = succeeds(folder.path(), "reference s.json --tolerance 1e-9");
+    assert!(said.starts_with("results/references/s.json: 3 patches"), "{said}");
+    let stored = fs::read_to_string(folder.path().join("results/references/s.json")).unwrap();
+    let stored: reference::Reference = serde_json::from_str(&stored).unwrap();
+    // Both triangles together see as much of the lamp as the square.
+    let mean = (stored.radiosity[0][0] + stored.radiosity[1][0]) / 2.0;
+    assert!((mean - 10.0 * 0.5 * EXACT).abs() < 1e-8, "{mean}");
+    assert_eq!(stored.radiosity[2], [10.0, 9.0, 8.0]);
+    assert!(stored.relative_l2_error < 1e-8);
+
+    let csv = "reference s.json --format csv --output s.csv";
+    succeeds(folder.path(), csv);
+    assert_eq!(fs::read_to_string(folder.path().join("s.csv")).unwrap().lines().count(), 4);
+}
+
+/// An interrupted run leaves its rounds, and ends as if it had not been interrupted.
+#[test]
+fn paths_go_on_where_they_were() {
+    let folder = folder();
+    let paths = "reference s.json --method paths --paths 6400 --output p.json --threads";
+    succeeds(folder.path(), &format!("{paths} 1"));
+    let read = |name: &str| fs::read_to_string(folder.path().join(name));
+    let whole = read("p.json").unwrap();
+    assert!(read("p.json.partial").is_err());
+    succeeds(folder.path(), &format!("{paths} 3"));
+    assert_eq!(read("p.json").unwrap(), whole);
+
+    // Where the result cannot be put, what was found stays.
+    fs::remove_file(folder.path().join("p.json")).unwrap();
+    fs::create_dir(folder.path().join("p.json")).unwrap();
+    assert_eq!(virtwall(folder.path(), &format!("{paths} 2")).0, 2);
+    let partial = read("p.json.partial").unwrap();
+    assert!(partial.contains("\"rounds\":64"), "{partial}");
+    fs::remove_dir(folder.path().join("p.json")).unwrap();
+    // Tampered with, it tells whether it is read again.
+    let tampered = partial.replacen("\"sum\":[[", "\"sum\":[[1000", 1);
+    fs::write(folder.path().join("p.json.partial"), tampered).unwrap();
+    succeeds(folder.path(), &format!("{paths} 2"));
+    assert_ne!(read("p.json").unwrap(), whole);
+    // One of another subject is not.
+    fs::write(folder.path().join("p.json.partial"), partial.replace("1996", "7")).unwrap();
+    succeeds(folder.path(), &format!("{paths} 2"));
+    assert_eq!(read("p.json").unwrap(), whole);
+}
+
+#[test]
+fn bad_input_is_refused() {
+    let folder = folder();
+    for (arguments, expected) in [
+        ("formfactors attic", "attic"),
+        ("formfactors s.obj --tolerance 0", "expected a number from 1e-12 to 0.1"),
+        ("formfactors s.obj --method rays --rays 0", "--rays"),
+        ("formfactors s.obj --format xml", "xml"),
+        ("formfactors s.obj --output no/where.csv", "no/where.csv"),
+        ("reference s.json --method dense --problem continuum", "patches only"),
+        ("reference s.json --paths 0", "--paths"),
+        ("reference s.json --output no/where.json", "no/where.json"),
+    ] {
+        let (code, stdout, stderr) = virtwall(folder.path(), arguments);
+        assert_eq!((code, stdout.as_str()), (2, ""), "{arguments}: {stderr}");
+        assert!(stderr.starts_with("error: ") && stderr.contains(expected), "{stderr}");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 3, "{arguments}");
+    }
+}

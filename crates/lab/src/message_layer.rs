@@ -1,0 +1,69 @@
+//! What a run tells of its machine's message layer, where that does anything.
+
+use multicomputer::{LayerAccount, Machine, MessageLayer};
+use serde::{Deserialize, Serialize};
+
+/// The columns of runs.csv: [`MessageLayerFigures`] by name.
+pub const COLUMNS: [&str; 7] = [
+    "packing_s",
+    "copying_s",
+    "waiting_for_room_s",
+    "coprocessor_s",
+    "unposted_messages",
+    "held_messages",
+    "buffer_bytes_most",
+];
+
+/// What the message layer did on all compute nodes, besides overheads.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MessageLayerFigures {
+    /// Seconds given to making packets.
+    pub packing_s: f64,
+    /// Seconds given to copying messages that arrived with no receive posted.
+    pub copying_s: f64,
+    /// Seconds that processors waited for room in buffers.
+    pub waiting_for_room_s: f64,
+    /// Seconds in which message coprocessors were busy.
+    pub coprocessor_s: f64,
+    /// Messages that arrived with no receive posted.
+    pub unposted_messages: u64,
+    /// Messages that had to wait for room in buffers.
+    pub held_messages: u64,
+    /// The most bytes that were ever taken of one node's buffers.
+    pub buffer_bytes_most: u64,
+}
+
+/// Whether results tell of a machine's message layer: whether it does anything.
+pub fn tells(machine: &Machine) -> bool {
+    machine.message_layer != MessageLayer::default()
+}
+
+impl MessageLayerFigures {
+    /// The figures of an account.
+    pub fn of(account: &LayerAccount) -> MessageLayerFigures {
+        MessageLayerFigures {
+            packing_s: account.packing.as_seconds_f64(),
+            copying_s: account.copying.as_seconds_f64(),
+            waiting_for_room_s: account.waiting_for_room.as_seconds_f64(),
+            coprocessor_s: account.coprocessor.as_seconds_f64(),
+            unposted_messages: account.unposted_messages,
+            held_messages: account.held_messages,
+            buffer_bytes_most: account.buffer_bytes_most,
+        }
+    }
+
+    /// The cell of a column.
+    pub fn cell(&self, column: &str) -> Option<String> {
+        let seconds = |seconds: f64| Some(format!("{seconds:.9}"));
+        match column {
+            "packing_s" => seconds(self.packing_s),
+            "copying_s" => seconds(self.copying_s),
+            "waiting_for_room_s" => seconds(self.waiting_for_room_s),
+            "coprocessor_s" => seconds(self.coprocessor_s),
+            "unposted_messages" => Some(self.unposted_messages.to_string()),
+            "held_messages" => Some(self.held_messages.to_string()),
+            "buffer_bytes_most" => Some(self.buffer_bytes_most.to_string()),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! The radiosity system with exact form factors, solved to machine precision.
+
+use radiosity::{Rgb, Scene};
+
+use crate::conjugate::{Symmetric, solve};
+use crate::cubature::{Estimate, Tolerance};
+use crate::pair::Pair;
+use crate::parallel;
+use crate::patches::Patches;
+
+/// Form factors between all patches of a scene.
+pub struct Dense {
+    patches: Patches,
+    /// Area times form factor, m²: the same there and back.
+    exchange: Symmetric,
+    /// How far each may be off, m².
+    error: Symmetric,
+}
+
+/// Radiosities and how far they may be off.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solution {
+    /// Of each patch, W/m².
+    pub radiosity: Vec<Rgb>,
+    /// Of each patch, W/m².
+    pub error: Vec<Rgb>,
+}
+
+impl Dense {
+    /// Form factors whose errors add up to some `tolerance` a patch, more where most cells of the
+    /// quadrature did not suffice; `done` hears of each patch that ends.
+    pub fn new(
+        scene: &Scene,
+        patches: Patches,
+        tolerance: f64,
+        threads: usize,
+        done: impl FnMut(),
+    ) -> Dense {
+        let all: f64 = patches.areas.iter().sum();
+        let exchange = |from: usize, to: usize| {
+            let pair = Pair::new(scene, &patches.surfaces[from], &patches.surfaces[to]);
+            // A share of what is allowed by area, and as much again by form factor.
+            let absolute = tolerance * patches.areas[from] * patches.areas[to] / all;
+            let tolerance = Tolerance { absolute, relative: tolerance };
+            pair.map_or(Estimate::default(), |pair| pair.exchange(tolerance))
+        };
+        let row = |from: usize| (0..from).map(|to| exchange(from, to)).collect::<Vec<_>>();
+        let rows = parallel::map(patches.count(), threads, row, done);
+        let part = |of: fn(&Estimate) -> f64| {
+            Symmetric::new(rows.iter().map(|row| row.iter().map(of).collect()).collect())
+        };
+        let (exchange, error) = (part(|found| found.value), part(|found| found.error));
+        Dense { patches, exchange, error }
+    }
+
+    /// The form factor from one patch to another.
+    pub fn form_factor(&self, from: usize, to: usize) -> f64 {
+        self.exchange.at(from, to) / self.patches.areas[from].max(f64::MIN_POSITIVE)
+    }
+
+    /// The patches.
+    pub fn patches(&self) -> &Patches {
+        &self.patches
+    }
+
+    /// Radiosities: B = E + ρ F B, colour by colour.
+    pub fn solve(&self) -> Solution {
+        let zero = vec![Rgb::ZERO; self.patches.count()];
+        let mut solution = Solution { radiosity: zero.clone(), error: zero };
+        for colour in 0..3 {
+            let (radiosity, error) = self.solve_colour(colour);
+            for patch in 0..self.patches.count() {
+                solution.radiosity[patch][colour] = radiosity[patch];
+                solution.error[patch][colour] = error[patch];
+            }
+        }
+        solution
+    }
+
+    /// One colour, with the error: that of the form factors carried through the same system, which is
+    /// a bound since no entry of the inverse is negative, and that of the solver.
+    fn solve_colour(&self, colour: usize) -> (Vec<f64>, Vec<f64>) {
+        let reflectance: Vec<f64> = self.patches.reflectance.iter().map(|r| r[colour]).collect();
+        let emission: Vec<f64> = self.patches.emission.iter().map(|e| e[colour]).collect();
+        let leaving = |irradiance: Vec<f64>, emission: &[f64]| -> Vec<f64> {
+            let reflected = irradiance.iter().zip(&reflectance).map(|(h, r)| r * h);
+            reflected.zip(emission).map(|(reflected, emitted)| emitted + reflected).collect()
+        };
+        let areas = &self.patches.areas;
+        let (irradiance, off) =
+            solve(&self.exchange, areas, &reflectance, &self.exchange.times(&emission));
+        let radiosity = leaving(irradiance, &emission);
+        let (error, error_off) =
+            solve(&self.exchange, areas, &reflectance, &self.error.times(&radiosity));
+        let error = error.iter().map(|error| error + error_off + off).collect();
+        (radiosity, leaving(error, &vec![0.0; areas.len()]))
+    }
+}

@@ -1,0 +1,166 @@
+//! Two convex polygons that may see each other.
+
+use radiosity::glam::DVec3;
+use radiosity::{Bounds, Plane, Scene};
+
+use crate::cubature::{Estimate, Part, Tolerance, integrate, quarters};
+use crate::element::contour;
+use crate::ring::{Ring, above, cut_out, fan, seen_from, sides, without_repeats};
+
+/// A convex part of a scene's polygon.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Surface {
+    /// Its corners, counter-clockwise seen from the front, local coordinates.
+    pub corners: Vec<DVec3>,
+    /// Its plane.
+    pub plane: Plane,
+    /// The polygon that it belongs to.
+    pub polygon: u32,
+}
+
+/// What two surfaces exchange, made ready to be integrated over the first: each without what lies
+/// behind the other, and what may stand between them.
+///
+/// As for rays, a polygon is opaque from both sides. Where polygons of one plane that face the same
+/// way overlap, all but the first of them are not there.
+pub struct Pair {
+    from: Vec<Ring>,
+    normal: DVec3,
+    to: Vec<Ring>,
+    /// The largest first: it may hide all.
+    blockers: Vec<Blocker>,
+}
+
+/// What of a polygon may stand between two others.
+struct Blocker {
+    corners: Ring,
+    plane: Plane,
+    area: f64,
+}
+
+impl Surface {
+    /// A whole polygon of a scene.
+    pub fn of_polygon(scene: &Scene, polygon: u32) -> Surface {
+        let face = &scene.polygons[polygon as usize];
+        Surface { corners: scene.corners(face).collect(), plane: face.plane, polygon }
+    }
+
+    fn height(&self, point: DVec3) -> f64 {
+        height(&self.plane, point)
+    }
+
+    /// Its uncovered parts in front of another surface.
+    fn in_front_of(&self, other: &Surface, scene: &Scene) -> Vec<Ring> {
+        let tolerance = scene.tolerance();
+        if !self.corners.iter().any(|&p| other.height(p) > tolerance) {
+            return Vec::new();
+        }
+        let mut parts = vec![above(&self.corners, |p| other.height(p))];
+        for cover in &scene.polygons[..self.polygon as usize] {
+            let alike = cover.plane.normal.dot(self.plane.normal) > 0.0
+                && scene.corners(cover).all(|p| self.height(p).abs() <= tolerance);
+            if alike {
+                // Anywhere before them will do to look from.
+                let eye = self.corners[0] + self.plane.normal;
+                let cover = seen_from(eye, &scene.corners(cover).collect::<Ring>());
+                let seen = parts.iter().map(|part| seen_from(eye, part)).collect();
+                let left = cut_out(seen, &cover, &sides(&cover));
+                parts = left.iter().map(|part| seen_from(-eye, part)).collect();
+            }
+        }
+        parts
+    }
+}
+
+impl Pair {
+    /// Two surfaces of a scene; none if neither ever sees the other's front.
+    pub fn new(scene: &Scene, from: &Surface, to: &Surface) -> Option<Pair> {
+        let (source, target) = (from.in_front_of(to, scene), to.in_front_of(from, scene));
+        if from.polygon == to.polygon || source.is_empty() || target.is_empty() {
+            return None;
+        }
+        let between = |polygon: &u32| *polygon != from.polygon && *polygon != to.polygon;
+        let blocker = |polygon| Blocker::new(scene, polygon, from, to);
+        let mut blockers: Vec<Blocker> =
+            (0..scene.polygons.len() as u32).filter(between).filter_map(blocker).collect();
+        blockers.sort_by(|a, b| b.area.total_cmp(&a.area));
+        Some(Pair { from: source, normal: from.plane.normal, to: target, blockers })
+    }
+
+    /// The form factor from an element of the first surface to what it sees of the second, exact to
+    /// rounding: the shadows of all that stands between are cut out.
+    pub fn from_element(&self, point: DVec3) -> f64 {
+        let seen = |ring: &Ring| seen_from(point, ring);
+        let mut pieces: Vec<Ring> = self.to.iter().map(seen).collect();
+        for blocker in &self.blockers {
+            if pieces.is_empty() {
+                return 0.0;
+            }
+            pieces = blocker.shade(pieces, point);
+        }
+        pieces.iter().map(|piece| contour(self.normal, piece)).sum()
+    }
+
+    /// The triangles over which [`Pair::from_element`] is to be integrated.
+    pub(crate) fn parts(&self, function: usize) -> Vec<Part> {
+        let smooth = self.blockers.is_empty();
+        let part = |triangle| Part { triangle, function, smooth };
+        let triangles = self.from.iter().flat_map(|ring| fan(ring));
+        if smooth {
+            triangles.map(part).collect()
+        } else {
+            // A look all over the surface: what no point sees would be taken for dark.
+            triangles.flat_map(quarters).map(part).collect()
+        }
+    }
+
+    /// Area of the first surface times the form factor to the second, m²; the same the other way round.
+    pub fn exchange(&self, tolerance: Tolerance) -> Estimate {
+        integrate(self.parts(0), tolerance, |_, point| self.from_element(point))
+    }
+}
+
+impl Blocker {
+    /// None for a polygon that cannot stand between the two surfaces.
+    fn new(scene: &Scene, polygon: u32, from: &Surface, to: &Surface) -> Option<Blocker> {
+        let Surface { corners, plane, .. } = Surface::of_polygon(scene, polygon);
+        let tolerance = scene.tolerance();
+        // Its plane must part them.
+        let reach = |surface: &Surface, side: f64| {
+            surface.corners.iter().any(|&p| side * height(&plane, p) > tolerance)
+        };
+        let parts = |side: f64| reach(from, side) && reach(to, -side);
+        let before = |surface: &Surface| corners.iter().any(|&p| surface.height(p) > tolerance);
+        if !((parts(1.0) || parts(-1.0)) && before(from) && before(to)) {
+            return None;
+        }
+        let corners = above(&above(&corners, |p| from.height(p)), |p| to.height(p));
+        let corners = without_repeats(corners, tolerance);
+        let area = fan(&corners).map(|[a, b, c]| (b - a).cross(c - a).length()).sum();
+        let possible = !corners.is_empty() && !outside(&corners, from, to);
+        possible.then_some(Blocker { corners, plane, area })
+    }
+
+    /// What is left of pieces, given as seen from `point`, outside the shadow that light at `point`
+    /// would cast.
+    fn shade(&self, pieces: Vec<Ring>, point: DVec3) -> Vec<Ring> {
+        let side = height(&self.plane, point);
+        if side == 0.0 {
+            return pieces;
+        }
+        let corners = seen_from(point, &self.corners);
+        let inwards: Vec<DVec3> = sides(&corners).iter().map(|s| s * side.signum()).collect();
+        cut_out(pieces, &corners, &inwards)
+    }
+}
+
+fn height(plane: &Plane, point: DVec3) -> f64 {
+    plane.normal.dot(point) - plane.offset
+}
+
+/// Whether corners all lie beyond the box around two surfaces, on one side of it.
+fn outside(corners: &[DVec3], from: &Surface, to: &Surface) -> bool {
+    let both = Bounds::of(from.corners.iter().chain(&to.corners).copied());
+    let own = Bounds::of(corners.iter().copied());
+    (own.min.cmpgt(both.max) | own.max.cmplt(both.min)).any()
+}

@@ -1,0 +1,66 @@
+//! The patches of a scene as one environment: shapes, reflectances, emissions.
+
+use radiosity::{LocalEnvironment, Rgb, Space};
+use sha2::{Digest, Sha256};
+
+use crate::pair::Surface;
+
+/// What a solution on patches needs to know of them, in the environment's order.
+#[derive(Clone)]
+pub struct Patches {
+    /// Shapes; a patch without area has no corners.
+    pub surfaces: Vec<Surface>,
+    /// m².
+    pub areas: Vec<f64>,
+    /// Reflectances.
+    pub reflectance: Vec<Rgb>,
+    /// Emitted radiosity, W/m².
+    pub emission: Vec<Rgb>,
+}
+
+impl Patches {
+    /// The patches of an environment, which is to be all of the space.
+    pub fn new(space: &Space, environment: &LocalEnvironment) -> Patches {
+        let polygon = |patch: &radiosity::Patch| &space.scene.polygons[patch.polygon as usize];
+        let patches = || environment.patches.iter();
+        // What is smaller than a point counts for nothing: rounding alone would decide what it sees.
+        let least = space.scene.tolerance().powi(2);
+        let area = |patch: &radiosity::Patch| if patch.area > least { patch.area } else { 0.0 };
+        let surface = |(number, patch): (u32, &radiosity::Patch)| Surface {
+            corners: if area(patch) > 0.0 {
+                environment.outline(space, number)
+            } else {
+                Vec::new()
+            },
+            plane: polygon(patch).plane,
+            polygon: patch.polygon,
+        };
+        Patches {
+            surfaces: (0..).zip(patches()).map(surface).collect(),
+            areas: patches().map(area).collect(),
+            reflectance: patches().map(|p| space.scene.material(polygon(p)).reflectance).collect(),
+            emission: patches().map(|p| space.scene.material(polygon(p)).emission).collect(),
+        }
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.areas.len()
+    }
+
+    /// SHA-256 of all of it, in hexadecimal: what a stored solution belongs to, whatever the files
+    /// looked like that the scene came from.
+    pub fn digest(&self) -> String {
+        let mut digest = Sha256::new();
+        let mut put = |number: f64| digest.update(number.to_le_bytes());
+        for (i, surface) in self.surfaces.iter().enumerate() {
+            put(f64::from(surface.polygon));
+            put(self.areas[i]);
+            surface.corners.iter().for_each(|p| p.to_array().into_iter().for_each(&mut put));
+            for colour in [self.reflectance[i], self.emission[i]] {
+                colour.to_array().into_iter().for_each(&mut put);
+            }
+        }
+        digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+}

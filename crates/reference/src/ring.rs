@@ -1,0 +1,98 @@
+//! Convex polygons as rings of corners, and their parts.
+
+use radiosity::glam::DVec3;
+
+/// Corners of a convex planar polygon, in order.
+pub(crate) type Ring = Vec<DVec3>;
+
+/// The parts of a convex polygon on either side of a plane: where `height`, which is linear, is not
+/// negative, and the rest. A part that is less than a triangle is empty.
+pub(crate) fn split(ring: &[DVec3], height: impl Fn(DVec3) -> f64) -> [Ring; 2] {
+    let mut parts = [Vec::with_capacity(ring.len() + 2), Vec::with_capacity(ring.len() + 2)];
+    let Some(&last) = ring.last() else { return parts };
+    let (mut before, mut height_before) = (last, height(last));
+    for &here in ring {
+        let height_here = height(here);
+        if (height_before < 0.0) != (height_here < 0.0) {
+            let share = height_before / (height_before - height_here);
+            let crossing = before + (here - before) * share;
+            parts.iter_mut().for_each(|part| part.push(crossing));
+        }
+        parts[usize::from(height_here < 0.0)].push(here);
+        (before, height_before) = (here, height_here);
+    }
+    for part in parts.iter_mut().filter(|part| part.len() < 3) {
+        part.clear();
+    }
+    parts
+}
+
+/// The part of a convex polygon where `height`, which is linear, is not negative.
+pub(crate) fn above(ring: &[DVec3], height: impl Fn(DVec3) -> f64) -> Ring {
+    let [above, _] = split(ring, height);
+    above
+}
+
+/// What of `pieces` the origin sees beside a convex polygon: all of them, and the polygon, are given as
+/// seen from there; the pieces show their fronts, and the polygon's sides, as [`sides`] has them, point
+/// inwards.
+pub(crate) fn cut_out(pieces: Vec<Ring>, polygon: &[DVec3], inwards: &[DVec3]) -> Vec<Ring> {
+    // Two convex polygons that do not overlap lie on two sides of an edge of one of them.
+    let beside =
+        |piece: &Ring| part(inwards, polygon, piece) || part(&sides(piece), piece, polygon);
+    if pieces.iter().all(beside) {
+        return pieces;
+    }
+    let mut left = Vec::with_capacity(pieces.len() + inwards.len());
+    for piece in pieces {
+        if beside(&piece) {
+            left.push(piece);
+            continue;
+        }
+        let mut inside = piece;
+        for side in inwards {
+            let [kept, outside] = split(&inside, |p| side.dot(p));
+            if !outside.is_empty() {
+                left.push(outside);
+            }
+            inside = kept;
+        }
+    }
+    left
+}
+
+/// Whether one of the planes has a ring on its upper side and another on its lower. That the first is
+/// must be seen: the plane of an edge without length may lie anywhere.
+fn part(planes: &[DVec3], upper: &[DVec3], lower: &[DVec3]) -> bool {
+    planes.iter().any(|plane| {
+        let slack = 1e-12 * plane.length();
+        lower.iter().all(|p| plane.dot(*p) <= 0.0)
+            && upper.iter().all(|p| plane.dot(*p) >= -slack * p.length())
+            && slack > 0.0
+    })
+}
+
+/// A ring without corners that all but repeat the one before.
+pub(crate) fn without_repeats(mut ring: Ring, tolerance: f64) -> Ring {
+    ring.dedup_by(|next, before| next.distance(*before) <= tolerance);
+    while ring.len() > 1 && ring[0].distance(ring[ring.len() - 1]) <= tolerance {
+        ring.pop();
+    }
+    if ring.len() < 3 { Vec::new() } else { ring }
+}
+
+/// Normals of the planes through the origin and each edge of a ring: inwards if it shows its front.
+pub(crate) fn sides(ring: &[DVec3]) -> Vec<DVec3> {
+    let next = ring.iter().cycle().skip(1);
+    ring.iter().zip(next).map(|(&a, &b)| b.cross(a)).collect()
+}
+
+/// A ring as seen from a point.
+pub(crate) fn seen_from(point: DVec3, ring: &[DVec3]) -> Ring {
+    ring.iter().map(|&p| p - point).collect()
+}
+
+/// The triangles of a fan over a ring.
+pub(crate) fn fan(ring: &[DVec3]) -> impl Iterator<Item = [DVec3; 3]> + Clone + '_ {
+    ring.windows(2).skip(1).map(|edge| [ring[0], edge[0], edge[1]])
+}

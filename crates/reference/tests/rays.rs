@@ -1,0 +1,165 @@
+//! Rays of the default hemisphere against exact form factors: how fast they converge.
+
+#![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
+
+mod common;
+
+use std::f64::consts::TAU;
+
+use common::{quad, room, scene, whole};
+use radiosity::glam::DVec3;
+use radiosity::{
+    Face, Hemisphere, HemisphereKind, LocalEnvironment, Mask, Rgb, Source, Space, shoot,
+};
+use reference::{ObjectRays, Objects, Pair, Surface, closed_form, element_to_polygon};
+
+/// Sizes of the hemisphere; the default is 176².
+const SIDES: [u32; 7] = [32, 45, 64, 90, 128, 176, 256];
+
+/// The p of N^−p that fits errors at all sizes best.
+fn order(errors: [f64; SIDES.len()]) -> f64 {
+    let x = SIDES.map(|side| f64::from(side * side).ln());
+    let mean = x.iter().sum::<f64>() / x.len() as f64;
+    let covariance: f64 = x.iter().zip(errors).map(|(x, error)| (x - mean) * error.ln()).sum();
+    -covariance / x.iter().map(|x| (x - mean).powi(2)).sum::<f64>()
+}
+
+fn hemisphere(side: u32) -> Hemisphere {
+    Hemisphere::new(HemisphereKind::Fibonacci, side * side, true).unwrap()
+}
+
+/// Form factors of rays from a point of a polygon to all patches.
+fn by_rays(
+    space: &Space,
+    environment: &LocalEnvironment,
+    hemisphere: &Hemisphere,
+    (polygon, centre): (u32, DVec3),
+) -> Vec<f64> {
+    let normal = space.scene.polygons[polygon as usize].plane.normal;
+    let (power, radiosity) = (Rgb::ONE, Rgb::ONE);
+    let source = Source { environment: 0, patch: 0, polygon, centre, normal, power, radiosity };
+    let mask = Mask::all(hemisphere.pixels());
+    let mut found = vec![0.0; environment.patches.len()];
+    for (patch, form_factor) in shoot(space, environment, hemisphere, &source, &mask).hits {
+        found[patch as usize] = form_factor;
+    }
+    found
+}
+
+/// Energy that goes to the wrong patch in an empty room of 4 × 4 × 3 m, 320 patches of half a metre,
+/// over forty sources: it falls as N^−0.79 or faster, and is at most 0.5 % at 176².
+#[test]
+fn energy_is_misdirected_less_and_less() {
+    // Walls of 2 m and of 1 m, for patches come by halving.
+    let mut faces = room([4.0, 4.0, 3.0]);
+    for wall in faces.split_off(2) {
+        for [low, high] in [[0.0, 2.0], [2.0, 3.0]] {
+            let mut part = wall.clone();
+            part.points.iter_mut().for_each(|p| p.z = if p.z == 0.0 { low } else { high });
+            faces.push(part);
+        }
+    }
+    let (space, environment) = whole(scene(&faces), 0.5);
+    let patches = &environment.patches;
+    assert_eq!(patches.len(), 320);
+    let outlines: Vec<Vec<DVec3>> =
+        (0..patches.len() as u32).map(|patch| environment.outline(&space, patch)).collect();
+    let sources: Vec<(u32, DVec3, Vec<f64>)> = (0..40)
+        .map(|i| {
+            let patch = &patches[i * patches.len() / 40 + 3];
+            let normal = space.scene.polygons[patch.polygon as usize].plane.normal;
+            let exact = |to: &Vec<DVec3>| element_to_polygon(patch.centre, normal, to).max(0.0);
+            (patch.polygon, patch.centre, outlines.iter().map(exact).collect())
+        })
+        .collect();
+    let misdirected = SIDES.map(|side| {
+        let hemisphere = hemisphere(side);
+        let of = |(polygon, centre, exact): &(u32, DVec3, Vec<f64>)| {
+            let found = by_rays(&space, &environment, &hemisphere, (*polygon, *centre));
+            0.5 * found.iter().zip(exact).map(|(found, exact)| (found - exact).abs()).sum::<f64>()
+        };
+        sources.iter().map(of).sum::<f64>() / sources.len() as f64
+    });
+    assert!(order(misdirected) >= 0.79, "{} {misdirected:?}", order(misdirected));
+    assert!(misdirected[5] <= 5e-3, "{misdirected:?}");
+}
+
+/// From object 0, one polygon, to object 1, one polygon: what has a closed form, and the value.
+fn closed_forms() -> Vec<(&'static str, Vec<Face>, f64)> {
+    let floor = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    let and = |points: [[f64; 3]; 4]| vec![quad(floor, 0), quad(points, 1)];
+    let opposed = |z: f64| and([[0.0, 0.0, z], [0.0, 1.0, z], [1.0, 1.0, z], [1.0, 0.0, z]]);
+    let wall = |x: f64| and([[x, 0.0, 0.0], [x, 1.0, 0.0], [x, 1.0, 1.0], [x, 0.0, 1.0]]);
+    let (unit, next) = ([0.0, 1.0], [1.0, 2.0]);
+    let mut obstructed = opposed(1.0);
+    let (o, h) = (0.0, 0.5);
+    obstructed.push(quad([[o, o, h], [h, o, h], [h, h, h], [o, h, h]], 2));
+    let disc = |z: f64, turn: f64| -> Vec<DVec3> {
+        let angle = |i: u32| turn * TAU * f64::from(i) / 256.0;
+        (0..256).map(|i| DVec3::new(angle(i).cos(), angle(i).sin(), z)).collect()
+    };
+    let discs = [(0, disc(0.0, 1.0)), (1, disc(1.0, -1.0))];
+    let discs = discs.map(|(object, points)| Face { points, material: 0, object });
+    vec![
+        ("opposed", opposed(1.0), closed_form::opposed_rectangles(1.0, 1.0, 1.0)),
+        ("close", opposed(0.1), closed_form::opposed_rectangles(1.0, 1.0, 0.1)),
+        (
+            "aside",
+            and([[1.0, 0.0, 1.0], [1.0, 1.0, 1.0], [2.0, 1.0, 1.0], [2.0, 0.0, 1.0]]),
+            closed_form::parallel_rectangles([unit, unit], [next, unit], 1.0),
+        ),
+        ("adjacent", wall(0.0), closed_form::adjacent_rectangles(1.0, 1.0, 1.0)),
+        ("apart", wall(-1.0), closed_form::perpendicular_rectangles([next, unit], [unit, unit])),
+        ("discs", discs.to_vec(), closed_form::coaxial_discs(1.0, 1.0, 1.0)),
+        ("obstructed", obstructed, 0.149_868_671_8),
+    ]
+}
+
+/// From sixty-four points each, root mean square: the error of a lattice of N points over a region
+/// with an edge falls as N^−3/4. So many points fix a fitted order to 0.025.
+#[test]
+fn every_closed_form_is_come_to() {
+    let mut orders = Vec::new();
+    for (name, faces, _) in closed_forms() {
+        let (space, environment) = whole(scene(&faces), f64::INFINITY);
+        let [from, to] = [0, 1].map(|polygon| Surface::of_polygon(&space.scene, polygon));
+        let pair = Pair::new(&space.scene, &from, &to).unwrap();
+        let point = |i: u32| {
+            let [u, v] = [0.754_877, 0.569_840].map(|step| (0.5 + step * f64::from(i)).fract());
+            let across = from.corners.len() / 2;
+            let [a, b, c] = [0, across / 2, across].map(|corner| from.corners[corner]);
+            // Half of a square or of a disc.
+            let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
+            b + (a - b) * u + (c - b) * v
+        };
+        let exact: Vec<f64> = (0..64).map(|i| pair.from_element(point(i))).collect();
+        let errors = SIDES.map(|side| {
+            let hemisphere = hemisphere(side);
+            let off = |(i, exact): (u32, &f64)| {
+                by_rays(&space, &environment, &hemisphere, (0, point(i)))[1] - exact
+            };
+            let squares: f64 = (0..).zip(&exact).map(|at| off(at).powi(2)).sum();
+            (squares / 64.0).sqrt()
+        });
+        orders.push((name, order(errors)));
+        assert!(errors[5] < 2e-4, "{name}: {errors:?}");
+    }
+    assert!(orders.iter().all(|&(_, order)| order > 0.75 - 2.0 * 0.025), "{orders:?}");
+    let mean = orders.iter().map(|&(_, order)| order).sum::<f64>() / orders.len() as f64;
+    assert!(mean >= 0.75, "{mean} {orders:?}");
+}
+
+/// Rays from points all over an object find the form factor, and know how far off they are.
+#[test]
+fn rays_from_all_over_find_every_closed_form() {
+    let mut squares = 0.0;
+    for (name, faces, exact) in closed_forms() {
+        let (space, _) = whole(scene(&faces), 1.0);
+        let objects = Objects::new(&space.scene);
+        let found = ObjectRays::new(&objects, &space, 1 << 21, 7).unwrap().from(0)[1];
+        let off = (found.value - exact) / found.error;
+        assert!(found.error < 2e-3 && off.abs() < 4.0, "{name}: {found:?} {exact}");
+        squares += off * off / 7.0;
+    }
+    assert!(squares < 3.0, "{squares}");
+}

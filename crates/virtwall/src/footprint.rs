@@ -1,0 +1,116 @@
+//! What a program of 1996 keeps in a node's memory, for a machine to size.
+
+use multicomputer::{NodeMemory, Segment};
+
+use crate::message::Parcel;
+use crate::problem::Problem;
+
+/// A thing that compute nodes keep. A machine with memory gives each a size.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Thing {
+    /// Code, stack and static data of the program.
+    Program,
+    /// A direction of the hemisphere's table.
+    Direction,
+    /// A cell of the grid.
+    Cell,
+    /// A polygon's entry in the list of a cell.
+    CellEntry,
+    /// A polygon, or the piece of one in an environment.
+    Polygon,
+    /// A patch, with its share of the quad-trees.
+    Patch,
+    /// Geometry and photometry of a queued source.
+    Source,
+    /// 32 pixels of its mask.
+    MaskWord,
+}
+
+impl Thing {
+    /// Every thing, in the order in which [`Footprint`] keeps them.
+    pub const ALL: [Thing; 8] = [
+        Thing::Program,
+        Thing::Direction,
+        Thing::Cell,
+        Thing::CellEntry,
+        Thing::Polygon,
+        Thing::Patch,
+        Thing::Source,
+        Thing::MaskWord,
+    ];
+
+    /// The name by which machine files size it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Thing::Program => "program",
+            Thing::Direction => "direction",
+            Thing::Cell => "cell",
+            Thing::CellEntry => "cell_entry",
+            Thing::Polygon => "polygon",
+            Thing::Patch => "patch",
+            Thing::Source => "source",
+            Thing::MaskWord => "mask_word",
+        }
+    }
+
+    /// The first thing that a machine's memory has no size for.
+    pub fn without_size(memory: &NodeMemory) -> Option<Thing> {
+        Thing::ALL.into_iter().find(|thing| !memory.sizes.contains_key(thing.name()))
+    }
+}
+
+/// How many of each thing something is made of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Footprint([u64; Thing::ALL.len()]);
+
+impl Footprint {
+    fn with(mut self, thing: Thing, times: usize) -> Footprint {
+        self.0[thing as usize] += times as u64;
+        self
+    }
+
+    /// What is there once on each node: the program and its table of directions.
+    pub(crate) fn of_the_program(problem: &Problem) -> Footprint {
+        let directions = problem.hemisphere.pixels() as usize;
+        Footprint::default().with(Thing::Program, 1).with(Thing::Direction, directions)
+    }
+
+    /// An environment: its patches, its polygons, its part of the grid.
+    pub(crate) fn of_environment(problem: &Problem, number: u32) -> Footprint {
+        let environment = &problem.environments[number as usize];
+        let grid = &problem.space.grid;
+        let lists = environment.block.cells().map(|cell| grid.polygons(cell).len());
+        let (cells, entries) = lists.fold((0, 0), |(cells, all), list| (cells + 1, all + list));
+        Footprint::default()
+            .with(Thing::Cell, cells)
+            .with(Thing::CellEntry, entries)
+            .with(Thing::Polygon, environment.polygons())
+            .with(Thing::Patch, environment.patches.len())
+    }
+
+    /// A source that waits in a queue.
+    pub(crate) fn of_source(parcel: &Parcel) -> Footprint {
+        let words = parcel.mask.pixels().div_ceil(32) as usize;
+        Footprint::default().with(Thing::Source, 1).with(Thing::MaskWord, words)
+    }
+
+    /// Its bytes; what the machine has no size for takes none.
+    pub fn bytes(&self, memory: &NodeMemory) -> u64 {
+        let size = |thing: Thing| memory.sizes.get(thing.name()).copied().unwrap_or(0);
+        let bytes = Thing::ALL.iter().zip(self.0).map(|(&thing, times)| size(thing) * times);
+        bytes.sum()
+    }
+}
+
+/// The program and its tables.
+pub(crate) const PROGRAM: Segment = Segment(u64::MAX);
+
+/// An environment by its number.
+pub(crate) fn environment(number: u32) -> Segment {
+    Segment(number.into())
+}
+
+/// A queued source by its turn among all that its node has queued.
+pub(crate) fn queued(turn: u64) -> Segment {
+    Segment((1 << 32) + turn)
+}
