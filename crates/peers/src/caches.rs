@@ -6,9 +6,8 @@ use std::process::Command;
 use std::sync::Arc;
 
 use multicomputer::CacheLevel;
-use radiosity::shoot;
 use serde::Serialize;
-use virtwall::{Layout, Problem, Storage};
+use virtwall::{Layout, Parcel, Problem, Storage};
 
 use crate::command::run;
 use crate::cpu::rounded;
@@ -17,14 +16,14 @@ use crate::shots;
 /// Scenes and how they are cut.
 const SCENES: [&str; 3] = ["office", "rooms", "building"];
 const ENVIRONMENTS: [u32; 3] = [1, 8, 56];
-/// Lights shot in each.
-const LIGHTS: usize = 8;
+/// Machines whose caches are taken.
+const MACHINES: [&str; 2] = ["ultra1", "origin2000"];
+/// Valgrind's shortest line, bytes: what is shorter is made as long, on both sides.
+const SHORTEST_LINE: u64 = 32;
 
-/// First caches, ways and bytes a line: as large as an UltraSPARC-I has it, and that of an i860 XP. (Valgrind
-/// knows no lines of 16 B.)
-const FIRST: [(u64, u64, u64); 2] = [(16_384, 1, 32), (16_384, 4, 32)];
-/// The second: size, ways, bytes a line.
-const SECOND: (u64, u64, u64) = (524_288, 1, 64);
+/// Lights shot in each; the first one fills the caches and is not counted.
+const LIGHTS: usize = 4;
+const UNCOUNTED: usize = 1;
 
 /// Where arrays begin in memory is luck, and decides which of them fall on each other in a direct-mapped
 /// cache. Of three placements the median counts, valgrind's and the model's: bytes from which the
@@ -32,136 +31,130 @@ const SECOND: (u64, u64, u64) = (524_288, 1, 64);
 const PLACEMENTS: [u64; 3] = [4_096, 131_072, 1 << 30];
 const GAPS: [u64; 3] = [16, 1_040, 5_008];
 
-/// The native kernel's records. Its polygons are 120 B, of which a test of the plane reads the
-/// better part; a pixel's weight is read where it ends. Frames of the three functions inside each other
-/// (1.4 KB as compiled) and the planes of the grid are in constant use.
+/// The native kernel's records. Its polygons are 120 B, of which a test of the plane reads the better
+/// part. Frames of the three functions inside each other (1.4 KB as compiled) and the planes of the grid
+/// are in constant use.
 const NATIVE: Layout = Layout {
     direction: 24,
-    weight: 8,
-    cell: 4,
+    cell: [4, 8],
     entry: 4,
-    polygon: [120, 88],
+    plane: [120, 88],
     edges: [96, 96],
+    axes: [80, 80],
     slot: 4,
-    form_factor: 8,
-    patch: [96, 8],
+    patch: [304, 96, 16],
     hot: 2_048,
     gap: 0,
     by_environment: false,
 };
 
-/// One scene in one pair of caches.
+/// One scene in the caches of one machine.
 #[derive(Serialize)]
 pub struct Row {
+    /// The machine.
+    pub machine: String,
     /// The scene.
     pub scene: String,
     /// Local environments.
     pub local_environments: u32,
-    /// Ways of the first cache.
-    pub ways: u64,
-    /// Its line, bytes.
-    pub line: u64,
-    /// Shots, through an environment each.
-    pub shots: u64,
+    /// The level, 1 nearest to the processor.
+    pub level: usize,
+    /// Shots, through an environment each, the uncounted ones included.
+    pub shots: usize,
     /// Loads and stores of the native kernel, millions.
     pub references: f64,
-    /// Per cent of them that miss the first cache, as valgrind counts them.
-    pub first_percent: f64,
+    /// Per cent of them that miss this level, as valgrind counts them.
+    pub percent: f64,
     /// The same as the model has it.
-    pub first_percent_model: f64,
+    pub percent_model: f64,
     /// The model's over valgrind's.
-    pub first_ratio: f64,
+    pub ratio: f64,
     /// The least and the greatest that valgrind counts, as the arrays lie, over its median.
-    pub first_spread: String,
+    pub spread: String,
     /// The same of the model.
-    pub first_spread_model: String,
-    /// The same of the second cache.
-    pub second_percent: f64,
-    /// The same of the second cache.
-    pub second_percent_model: f64,
-    /// The same of the second cache.
-    pub second_ratio: f64,
-    /// The same of the second cache.
-    pub second_spread: String,
-    /// The same of the second cache.
-    pub second_spread_model: String,
+    pub spread_model: String,
 }
 
 /// Data references and misses of both levels.
 type Counts = [u64; 3];
 
-/// Measure every scene, cut and geometry.
+/// Measure every scene, cut and machine.
 ///
 /// # Errors
 /// When valgrind does not run, or a scene is missing.
 pub fn measure() -> Result<Vec<Row>, String> {
-    let mut rows = Vec::new();
-    for first in FIRST {
+    let mut all = Vec::new();
+    for machine in MACHINES {
+        let levels = levels(machine)?;
         for scene in SCENES {
             for environments in ENVIRONMENTS {
-                let row = row(scene, environments, first)?;
-                eprintln!("{scene} {environments}: {} {}", row.first_ratio, row.second_ratio);
-                rows.push(row);
+                let rows = rows(machine, &levels, scene, environments)?;
+                let ratios: Vec<String> = rows.iter().map(|row| row.ratio.to_string()).collect();
+                eprintln!("{machine} {scene} {environments}: {}", ratios.join(" "));
+                all.extend(rows);
             }
         }
     }
-    Ok(rows)
+    Ok(all)
 }
 
-fn row(scene: &str, environments: u32, first: (u64, u64, u64)) -> Result<Row, String> {
-    let counts = PLACEMENTS.map(|placement| counted(scene, environments, first, placement));
+/// The caches of a machine, as valgrind can have them.
+fn levels(machine: &str) -> Result<Vec<CacheLevel>, String> {
+    let mut levels =
+        shots::plan(&[&format!("machine={machine}")])?.machines[0].machine.processor.caches.clone();
+    levels.iter_mut().for_each(|level| level.line = level.line.max(SHORTEST_LINE));
+    Ok(levels)
+}
+
+fn rows(
+    machine: &str,
+    levels: &[CacheLevel],
+    scene: &str,
+    environments: u32,
+) -> Result<Vec<Row>, String> {
+    let counts = PLACEMENTS.map(|placement| counted(scene, environments, levels, placement));
     let counts = counts.into_iter().collect::<Result<Vec<Counts>, String>>()?;
     let problem = shots::problem(scene, environments)?;
-    let models = GAPS.map(|gap| modelled(&problem, first, gap));
-    let shots = models[0].0;
+    let shots = shots::of_lights(&problem, LIGHTS);
+    let models = GAPS.map(|gap| modelled(&problem, &shots, levels, gap));
     let [references, ..] = counts[0];
-    let of_level = |level: usize| {
+    let percent = |misses: u64| rounded(100.0 * misses as f64 / references as f64);
+    let row = |level: usize| {
         let counted = Spread::of(counts.iter().map(|counts| counts[level + 1]));
-        let modelled = Spread::of(models.iter().map(|(_, misses)| misses[level]));
-        let ratio = rounded(modelled.median as f64 / counted.median as f64);
-        let percent = |misses: u64| rounded(100.0 * misses as f64 / references as f64);
-        (percent(counted.median), percent(modelled.median), ratio, counted.text(), modelled.text())
+        let modelled = Spread::of(models.iter().map(|misses| misses[level]));
+        Row {
+            machine: machine.to_owned(),
+            scene: scene.to_owned(),
+            local_environments: environments,
+            level: level + 1,
+            shots: shots.len(),
+            references: rounded(references as f64 / 1e6),
+            percent: percent(counted.median),
+            percent_model: percent(modelled.median),
+            ratio: rounded(modelled.median as f64 / counted.median as f64),
+            spread: counted.text(),
+            spread_model: modelled.text(),
+        }
     };
-    let (first_percent, first_percent_model, first_ratio, first_spread, first_spread_model) =
-        of_level(0);
-    let (second_percent, second_percent_model, second_ratio, second_spread, second_spread_model) =
-        of_level(1);
-    Ok(Row {
-        scene: scene.to_owned(),
-        local_environments: environments,
-        ways: first.1,
-        line: first.2,
-        shots,
-        references: rounded(references as f64 / 1e6),
-        first_percent,
-        first_percent_model,
-        first_ratio,
-        first_spread,
-        first_spread_model,
-        second_percent,
-        second_percent_model,
-        second_ratio,
-        second_spread,
-        second_spread_model,
-    })
+    Ok((0..levels.len()).map(row).collect())
 }
 
 /// What valgrind counts of the native kernel.
 fn counted(
     scene: &str,
     environments: u32,
-    first: (u64, u64, u64),
+    levels: &[CacheLevel],
     placement: u64,
 ) -> Result<Counts, String> {
     let own = std::env::current_exe().map_err(|error| error.to_string())?;
     let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
     let output = folder.path().join("callgrind.out");
-    let geometry = |(size, ways, line): (u64, u64, u64)| format!("{size},{ways},{line}");
     let mut valgrind = Command::new("valgrind");
-    valgrind.args(["--quiet", "--tool=callgrind", "--cache-sim=yes"]);
-    valgrind.args(["--I1=16384,2,32".to_owned(), format!("--D1={}", geometry(first))]);
-    valgrind.arg(format!("--LL={}", geometry(SECOND)));
-    valgrind.arg("--toggle-collect=peers::shots::shoot_and_update");
+    valgrind.args(["--quiet", "--tool=callgrind", "--cache-sim=yes", "--I1=16384,2,32"]);
+    for (name, CacheLevel { size, ways, line, .. }) in ["D1", "LL"].iter().zip(levels) {
+        valgrind.arg(format!("--{name}={size},{ways},{line}"));
+    }
+    valgrind.arg("--toggle-collect=peers::shots::counted");
     valgrind.arg(format!("--callgrind-out-file={}", output.display()));
     valgrind.env("MALLOC_MMAP_THRESHOLD_", placement.to_string());
     valgrind.arg(own).args(["shots", scene, &environments.to_string()]);
@@ -183,18 +176,19 @@ fn totals(text: &str) -> Option<Counts> {
     Some([of("Dr") + of("Dw"), of("D1mr") + of("D1mw"), of("DLmr") + of("DLmw")])
 }
 
-/// Shots, and what the model has of them.
-fn modelled(problem: &Arc<Problem>, first: (u64, u64, u64), gap: u64) -> (u64, Vec<u64>) {
-    let level = |(size, ways, line)| CacheLevel { size, ways, line, miss_time: 0.0 };
-    let mut storage = Storage::new(problem, Layout { gap, ..NATIVE }, &[first, SECOND].map(level));
-    let mut shots = 0;
-    shots::shoot_lights(problem, LIGHTS, |parcel| {
-        storage.shoot(parcel);
-        shots += 1;
-        let environment = &problem.environments[parcel.environment as usize];
-        shoot(&problem.space, environment, &problem.hemisphere, &parcel.source, &parcel.mask)
-    });
-    (shots, storage.misses())
+/// Shots that are not counted, of so many.
+fn uncounted(shots: &[Parcel]) -> usize {
+    shots.len() * UNCOUNTED / LIGHTS
+}
+
+/// Misses of each level as the model has them.
+fn modelled(problem: &Arc<Problem>, shots: &[Parcel], levels: &[CacheLevel], gap: u64) -> Vec<u64> {
+    let mut storage = Storage::new(problem, Layout { gap, ..NATIVE }, levels);
+    let (first, others) = shots.split_at(uncounted(shots));
+    first.iter().for_each(|parcel| storage.shoot(parcel));
+    let before = storage.misses();
+    others.iter().for_each(|parcel| storage.shoot(parcel));
+    storage.misses().iter().zip(before).map(|(after, before)| after - before).collect()
 }
 
 /// Misses as arrays lie.
@@ -222,50 +216,52 @@ impl Spread {
 /// # Errors
 /// What is wrong with the scene.
 pub fn native(scene: &str, environments: u32) -> Result<(), String> {
-    println!("{}", shots::run(&*shots::problem(scene, environments)?, LIGHTS));
+    let problem = shots::problem(scene, environments)?;
+    let shots = shots::of_lights(&problem, LIGHTS);
+    println!("{}", shots::carry_out(&problem, &shots, uncounted(&shots)));
     Ok(())
 }
 
 /// What was found, for people.
 pub fn table(rows: &[Row]) -> String {
     let mut text = String::from(
-        "\n| first cache | scene | environments | shots | million references | misses of the first, % \
-         | model, % | model over valgrind | misses of the second, % | model, % | model over valgrind |\n\
-         |---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n",
+        "\n| machine | scene | environments | shots | million references | level | misses, % | model, % | \
+         model over valgrind |\n|---|---|---:|---:|---:|---:|---:|---:|---:|\n",
     );
     for row in rows {
         let _ = writeln!(
             text,
-            "| {}-way | {} | {} | {} | {:.0} | {:.2} ({}) | {:.2} ({}) | **{:.2}** | {:.3} ({}) | \
-             {:.3} ({}) | **{:.2}** |",
-            row.ways,
+            "| {} | {} | {} | {} | {:.0} | {} | {:.3} ({}) | {:.3} ({}) | {:.2} |",
+            row.machine,
             row.scene,
             row.local_environments,
             row.shots,
             row.references,
-            row.first_percent,
-            row.first_spread,
-            row.first_percent_model,
-            row.first_spread_model,
-            row.first_ratio,
-            row.second_percent,
-            row.second_spread,
-            row.second_percent_model,
-            row.second_spread_model,
-            row.second_ratio,
+            row.level,
+            row.percent,
+            row.spread,
+            row.percent_model,
+            row.spread_model,
+            row.ratio,
         );
     }
     text
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn totals_are_read_by_the_names_of_their_events() {
-        let text = "events: Ir Dr Dw I1mr D1mr D1mw ILmr DLmr DLmw\ntotals: 9 5 4 0 3 2 0 1 1\n";
-        assert_eq!(totals(text), Some([9, 5, 2]));
-        assert_eq!(totals("events: Ir\n"), None);
+pub fn temp(scene: &str, environments: u32, hot: u64) -> Result<(), String> {
+    let problem = shots::problem(scene, environments)?;
+    let shots = shots::of_lights(&problem, LIGHTS);
+    for machine in MACHINES {
+        let levels = levels(machine)?;
+        for gap in GAPS {
+            let mut storage = Storage::new(&problem, Layout { gap, hot, ..NATIVE }, &levels);
+            let (first, others) = shots.split_at(uncounted(&shots));
+            first.iter().for_each(|parcel| storage.shoot(parcel));
+            let before = storage.misses();
+            others.iter().for_each(|parcel| storage.shoot(parcel));
+            let m: Vec<_> = storage.misses().iter().zip(before).map(|(a, b)| a - b).collect();
+            println!("{machine} {gap} {} {}", m[0], m[1]);
+        }
     }
+    Ok(())
 }

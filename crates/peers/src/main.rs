@@ -52,6 +52,15 @@ enum Command {
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
     },
+    /// TEMP
+    Model {
+        /// s
+        scene: String,
+        /// e
+        environments: u32,
+        /// e
+        hot: u64,
+    },
     /// Shoot lights natively, for valgrind to watch.
     #[command(hide = true)]
     Shots {
@@ -108,6 +117,7 @@ fn run(command: &Command) -> Result<(), String> {
                 record::write(out, "caches.csv", &record::csv(&rows)?)?;
             }
         }
+        Command::Model { scene, environments, hot } => caches::temp(scene, *environments, *hot)?,
         Command::Shots { scene, environments } => caches::native(scene, *environments)?,
         Command::Record { out, rounds } => record::record(out, rounds.rounds)?,
         Command::Profile => {

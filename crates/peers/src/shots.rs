@@ -1,55 +1,60 @@
-//! The kernel as the paper has it, to be watched by valgrind: lights shot plainly from environment to
-//! environment, all patches updated and looked at after each.
+//! The kernel with plain records around it, to be watched by valgrind: lights shot a ray at a time from
+//! environment to environment, all patches updated and looked at after each shot (§4.2.2, §4.2.3).
 
 use std::collections::VecDeque;
 use std::path::Path;
 use std::sync::Arc;
 
-use radiosity::{Light, Mask, Rgb, Shot, Side, Source, shoot_plainly};
+use radiosity::{End, Light, Mask, Ray, Rgb, Side, Source, Work, cast, shoot};
 use virtwall::{Parcel, Problem};
 
-/// A scene cut into so many environments, as Figure 11 has it.
+/// Table 1's experiment on one processor, with other values set.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn plan(set: &[&str]) -> Result<lab::Plan, String> {
+    let set: Vec<String> =
+        [&["processors=1"], set].concat().into_iter().map(str::to_owned).collect();
+    let plan = lab::Plan::read(Path::new("experiments/table1.json"), &set);
+    plan.map_err(|fault| fault.to_string())
+}
+
+/// A scene cut into so many environments.
 ///
 /// # Errors
 /// What is wrong with the scene.
 pub fn problem(scene: &str, environments: u32) -> Result<Arc<Problem>, String> {
-    let set = ["processors=1", &format!("scene={scene}")].map(str::to_owned);
-    let set = [&set[..], &[format!("local_environments={environments}")]].concat();
-    let plan = lab::Plan::read(Path::new("experiments/table1.json"), &set);
-    let plan = plan.map_err(|fault| fault.to_string())?;
+    let environments = format!("local_environments={environments}");
+    let plan = plan(&[&format!("scene={scene}"), &environments])?;
     Ok(Arc::clone(&plan.problems[0].problem))
 }
 
-/// Shoot so many of a scene's lights, spread evenly over them, one after the other, and tell `each`
-/// of every shot; it says what becomes of the source.
-pub fn shoot_lights(problem: &Problem, lights: usize, mut each: impl FnMut(&Parcel) -> Shot) {
+/// All shots that so many of a scene's lights make, spread evenly over them, one after the other.
+pub fn of_lights(problem: &Problem, lights: usize) -> Vec<Parcel> {
     let all = emitters(problem);
     let lights = lights.min(all.len());
+    let mut shots = Vec::new();
     for light in 0..lights {
         let mut queue = VecDeque::from([all[light * all.len() / lights].clone()]);
         while let Some(parcel) = queue.pop_front() {
-            let shot = each(&parcel);
-            for (side, outgoing) in Side::ALL.into_iter().zip(shot.outgoing) {
-                let Some(outgoing) = outgoing else { continue };
-                queue.push_back(Parcel {
-                    environment: problem.decomposition.neighbour(parcel.environment, side),
-                    source: parcel.source,
-                    mask: outgoing.mask,
-                    form_factor: outgoing.form_factor,
-                });
-            }
+            let environment = &problem.environments[parcel.environment as usize];
+            let Parcel { source, mask, .. } = &parcel;
+            let shot = shoot(&problem.space, environment, &problem.hemisphere, source, mask);
+            queue.extend(problem.onward(&parcel, &shot));
+            shots.push(parcel);
         }
     }
+    shots
 }
 
 /// Every patch that emits, with all its pixels.
 fn emitters(problem: &Problem) -> Vec<Parcel> {
     let mut found = Vec::new();
     for (number, environment) in (0..).zip(&problem.environments) {
-        let mut light = Light::new(&problem.space, environment);
+        let light = Light::new(&problem.space, environment);
         for patch in 0..environment.patches.len() as u32 {
             if light.unshot[patch as usize] != Rgb::ZERO {
-                let source = light.take_source(&problem.space, environment, number, patch);
+                let source = light.source(&problem.space, environment, number, patch);
                 let mask = Mask::all(problem.hemisphere.pixels());
                 found.push(Parcel { environment: number, source, mask, form_factor: 1.0 });
             }
@@ -58,64 +63,78 @@ fn emitters(problem: &Problem) -> Vec<Parcel> {
     found
 }
 
-/// A patch as a plain program keeps it: what an update reads and writes, on 96 bytes.
+/// A patch as a plain program keeps it: first what a shot reads and writes.
 #[derive(Clone)]
 pub struct PatchRecord {
+    form_factor: f64,
+    energy: f64,
     radiosity: Rgb,
     unshot: Rgb,
     reflectance: Rgb,
     area: f64,
-    energy: f64,
-    _links: f64,
+    _corners_and_links: [f64; 25],
 }
 
-/// Shoot lights natively.
-pub fn run(problem: &Problem, lights: usize) -> f64 {
-    let record = PatchRecord {
-        radiosity: Rgb::ZERO,
-        unshot: Rgb::ZERO,
-        reflectance: Rgb::splat(0.5),
-        area: 1.0,
-        energy: 0.0,
-        _links: 0.0,
-    };
+const PATCH: PatchRecord = PatchRecord {
+    form_factor: 0.0,
+    energy: 0.0,
+    radiosity: Rgb::ZERO,
+    unshot: Rgb::ZERO,
+    reflectance: Rgb::splat(0.5),
+    area: 1.0,
+    _corners_and_links: [0.0; 25],
+};
+
+/// Carry out shots, the first `uncounted` of them for the caches alone.
+pub fn carry_out(problem: &Problem, shots: &[Parcel], uncounted: usize) -> f64 {
     let environments = problem.environments.iter();
-    let mut patches: Vec<_> = environments.map(|e| vec![record.clone(); e.patches.len()]).collect();
-    let most = patches.iter().map(Vec::len).max().unwrap_or(0);
-    let mut form_factors = vec![0.0; most];
-    let mut greatest = 0.0;
-    shoot_lights(problem, lights, |parcel| {
-        let patches = &mut patches[parcel.environment as usize];
-        let (shot, energy) = shoot_and_update(problem, parcel, patches, &mut form_factors);
-        greatest = f64::max(greatest, energy);
-        shot
-    });
-    greatest
+    let mut patches: Vec<_> = environments.map(|e| vec![PATCH; e.patches.len()]).collect();
+    let (first, others) = shots.split_at(uncounted);
+    for parcel in first {
+        shoot_and_update(problem, parcel, &mut patches);
+    }
+    counted(problem, others, &mut patches)
 }
 
-/// What valgrind counts: a source shot, all patches updated, the greatest looked for.
+/// What valgrind counts.
 #[inline(never)]
-pub fn shoot_and_update(
-    problem: &Problem,
-    parcel: &Parcel,
-    patches: &mut [PatchRecord],
-    form_factors: &mut [f64],
-) -> (Shot, f64) {
+pub fn counted(problem: &Problem, shots: &[Parcel], patches: &mut [Vec<PatchRecord>]) -> f64 {
+    shots.iter().map(|parcel| shoot_and_update(problem, parcel, patches)).sum()
+}
+
+/// Shoot a source, make the masks for the neighbours, update all patches, and look for the greatest.
+fn shoot_and_update(problem: &Problem, parcel: &Parcel, patches: &mut [Vec<PatchRecord>]) -> f64 {
     let Parcel { environment, source, mask, .. } = parcel;
+    let patches = &mut patches[*environment as usize];
     let environment = &problem.environments[*environment as usize];
-    let shot = shoot_plainly(&problem.space, environment, &problem.hemisphere, source, mask);
-    for &(patch, form_factor) in &shot.hits {
-        form_factors[patch as usize] = form_factor;
+    let [tangent, bitangent, normal] = problem.hemisphere.frame(source.centre, source.normal);
+    let none = |side| environment.has_neighbour(side).then(|| Mask::none(mask.pixels()));
+    let mut copies = Side::ALL.map(none);
+    let mut work = Work::NONE;
+    for pixel in mask.ones() {
+        let d = problem.hemisphere.directions[pixel as usize];
+        let ray = Ray::new(source.centre, tangent * d.x + bitangent * d.y + normal * d.z);
+        match cast(&problem.space, environment, &ray, source.polygon, &mut work) {
+            End::Hit { polygon, distance } => {
+                if let Some(patch) = environment.patch_at(polygon, ray.at(distance)) {
+                    patches[patch as usize].form_factor += 1.0;
+                }
+            }
+            End::Leaves(side) => {
+                copies[side.index()].iter_mut().for_each(|copy| copy.set(pixel));
+            }
+        }
     }
-    update(patches, form_factors, source);
-    let energy = patches.iter().map(|patch| patch.energy).fold(0.0, f64::max);
-    (shot, energy)
+    std::hint::black_box((&mut copies, work));
+    update(patches, source);
+    patches.iter().map(|patch| patch.energy).fold(0.0, f64::max)
 }
 
 /// All patches, each with its form factor, which is cleared.
-fn update(patches: &mut [PatchRecord], form_factors: &mut [f64], source: &Source) {
-    for (patch, form_factor) in patches.iter_mut().zip(form_factors) {
-        let arriving = source.power * patch.reflectance * std::mem::take(form_factor);
+fn update(patches: &mut [PatchRecord], source: &Source) {
+    for patch in patches {
+        let form_factor = std::mem::take(&mut patch.form_factor);
+        let arriving = source.power * patch.reflectance * form_factor;
         patch.unshot += arriving;
         patch.radiosity += arriving / patch.area;
         patch.energy += arriving.element_sum();

@@ -23,8 +23,13 @@ pub enum Record {
     Plane(u32),
     /// The edges of a polygon whose plane the ray meets in this cell.
     Edges(u32),
-    /// The form factor of a patch that a ray hits.
-    Hit(u32),
+    /// What finds the patch that a ray hits, and the patch.
+    Hit {
+        /// Its polygon.
+        polygon: u32,
+        /// Its number in its environment.
+        patch: u32,
+    },
 }
 
 /// Tell `touch` of every record, in the order in which [`shoot_plainly`](crate::shoot_plainly) comes by.
@@ -51,7 +56,7 @@ pub fn trace(
                 nearest_hit(space, others, &ray, passage.exit(), &mut touch)
             {
                 if let Some(patch) = environment.patch_at(polygon, ray.at(distance)) {
-                    touch(Record::Hit(patch));
+                    touch(Record::Hit { polygon, patch });
                 }
                 break;
             }

@@ -84,7 +84,7 @@ impl Problem {
     }
 
     /// A source with what is left of its mask, for each neighbour that it enters (§4.2.3).
-    pub(crate) fn onward(&self, parcel: &Parcel, shot: &Shot) -> impl Iterator<Item = Parcel> {
+    pub fn onward(&self, parcel: &Parcel, shot: &Shot) -> impl Iterator<Item = Parcel> {
         let (from, source) = (parcel.environment, parcel.source);
         Side::ALL.into_iter().zip(&shot.outgoing).filter_map(move |(side, outgoing)| {
             outgoing.as_ref().map(|outgoing| Parcel {

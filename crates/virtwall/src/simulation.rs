@@ -57,8 +57,10 @@ impl Process for SimulatedProcess {
 
     async fn fetch(&self, source: &Parcel) {
         if let Some(storage) = &self.storage {
-            let span = Duration::from_seconds_f64(storage.borrow_mut().shoot(source));
-            self.node.miss(span).await;
+            let before = storage.borrow().time();
+            storage.borrow_mut().shoot(source);
+            let span = storage.borrow().time() - before;
+            self.node.miss(Duration::from_seconds_f64(span)).await;
         }
     }
 

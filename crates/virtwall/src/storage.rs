@@ -8,27 +8,26 @@ use radiosity::{Block, Record, Side, trace};
 use crate::message::Parcel;
 use crate::problem::Problem;
 
-/// Bytes of the records that the kernels touch.
+/// Bytes of the records that the kernels touch: from one to the next, and, where that is less, how
+/// many of them are touched.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {
     /// A direction of the hemisphere.
     pub direction: u64,
-    /// The weight of a pixel; 0 where all have the same.
-    pub weight: u64,
-    /// Where a cell's list begins; the next one's beginning is its end.
-    pub cell: u64,
+    /// A cell, and what says where its list begins and ends.
+    pub cell: [u64; 2],
     /// A polygon in a cell's list.
     pub entry: u64,
-    /// A polygon, and how much of it is read when a ray is tested against its plane.
-    pub polygon: [u64; 2],
-    /// A polygon's edges, and how much of them is read when a ray is tested against them.
+    /// A polygon's plane.
+    pub plane: [u64; 2],
+    /// A polygon's edges.
     pub edges: [u64; 2],
-    /// A patch in its polygon's quad-tree.
+    /// The axes of a polygon's quad-tree.
+    pub axes: [u64; 2],
+    /// A slot of the quad-tree.
     pub slot: u64,
-    /// A patch's form factor.
-    pub form_factor: u64,
-    /// A patch, and how much of it is read when the next source is chosen.
-    pub patch: [u64; 2],
+    /// A patch, what an update touches of it, and its energy and form factor.
+    pub patch: [u64; 3],
     /// What the innermost loops have in constant use: frames, ray, source.
     pub hot: u64,
     /// Between an array and the next: an allocator's own.
@@ -41,18 +40,19 @@ pub struct Layout {
 impl Layout {
     /// A plain C program in double precision.
     ///
-    /// Choice C17: the paper's is unpublished. The prices of the Paragon's operations count the same
-    /// records: a plane on 2 lines of 32 B, 2.5 edges of 24 B, a patch on 3 lines.
+    /// Choice C26: the paper's is unpublished. These are the records whose sizes
+    /// `machines/paragon-gp16.json` gives and whose misses the prices of the Paragon's operations hold: of
+    /// a polygon's 264 B its plane, 2.5 of its corners and its axes, of a patch's 300 B, aligned, its
+    /// form factor, energies, reflectance and area.
     pub const PLAIN_C: Layout = Layout {
         direction: 24,
-        weight: 0,
-        cell: 4,
-        entry: 4,
-        polygon: [64, 48],
+        cell: [8, 8],
+        entry: 8,
+        plane: [48, 48],
         edges: [96, 60],
+        axes: [64, 64],
         slot: 4,
-        form_factor: 8,
-        patch: [96, 8],
+        patch: [304, 96, 8],
         hot: 512,
         gap: 16,
         by_environment: true,
@@ -65,11 +65,9 @@ pub struct Storage {
     layout: Layout,
     caches: Caches,
     directions: u64,
-    weights: u64,
     masks: u64,
     mask_bytes: u64,
     masks_used: u64,
-    form_factors: u64,
     /// Of each cell, by its place in the grid: its address and that of its list.
     cells: Vec<[u64; 2]>,
     polygons: Vec<Polygons>,
@@ -77,11 +75,12 @@ pub struct Storage {
     patches: Vec<[u64; 2]>,
 }
 
-/// The polygons of an environment, or of all.
+/// Where the polygons of an environment, or of all, are.
 struct Polygons {
     planes: u64,
     edges: u64,
-    /// The number here of each polygon of the scene that is here.
+    axes: u64,
+    /// The number here of each polygon of the scene; of one that is not here it says nothing.
     numbers: Vec<u32>,
 }
 
@@ -104,18 +103,15 @@ impl Storage {
     pub fn new(problem: &Arc<Problem>, layout: Layout, levels: &[CacheLevel]) -> Storage {
         let whole = problem.space.grid.whole();
         let environments = &problem.environments;
-        let most_patches = environments.iter().map(|e| e.patches.len()).max().unwrap_or(0);
         let mask_bytes = u64::from(problem.hemisphere.pixels()).div_ceil(64) * 8;
         let mut room = Room { next: 0, gap: layout.gap };
         let mut storage = Storage {
             problem: Arc::clone(problem),
             caches: Caches::new(levels, layout.hot),
             directions: room.take(problem.hemisphere.directions.len(), layout.direction),
-            weights: room.take(problem.hemisphere.directions.len(), layout.weight),
             masks: room.take(environments.len(), mask_bytes),
             mask_bytes,
             masks_used: 0,
-            form_factors: room.take(most_patches, layout.form_factor),
             cells: vec![[0; 2]; whole.cells().count()],
             polygons: Vec::new(),
             patches: Vec::new(),
@@ -136,36 +132,33 @@ impl Storage {
 
     /// Place the cells of a block, their lists and their polygons.
     fn place(&mut self, block: Block, room: &mut Room) {
-        let (grid, layout) = (&self.problem.space.grid, &self.layout);
-        let (mut count, mut entries) = (0, 0);
-        let mut numbers = vec![ABSENT; self.problem.space.scene.polygons.len()];
-        for cell in block.cells() {
-            let listed = grid.polygons(cell);
-            self.cells[grid.index(cell)] = [count * layout.cell, entries * layout.entry];
-            count += 1;
-            entries += listed.len() as u64;
-            listed.iter().for_each(|&polygon| numbers[polygon as usize] = 0);
+        let Storage { layout, problem, .. } = self;
+        let grid = &problem.space.grid;
+        let lists = || block.cells().map(|cell| (grid.index(cell), grid.polygons(cell)));
+        let mut next = [
+            room.take(lists().count(), layout.cell[0]),
+            room.take(lists().map(|(_, list)| list.len()).sum(), layout.entry),
+        ];
+        let mut here = vec![false; problem.space.scene.polygons.len()];
+        for (cell, list) in lists() {
+            self.cells[cell] = next;
+            next[0] += layout.cell[0];
+            next[1] += layout.entry * list.len() as u64;
+            list.iter().for_each(|&polygon| here[polygon as usize] = true);
         }
-        let starts =
-            [room.take(count as usize + 1, layout.cell), room.take(entries as usize, layout.entry)];
-        for cell in block.cells() {
-            let place = &mut self.cells[grid.index(cell)];
-            *place = [place[0] + starts[0], place[1] + starts[1]];
-        }
-        let mut polygons = 0;
-        for number in numbers.iter_mut().filter(|number| **number != ABSENT) {
-            *number = polygons;
-            polygons += 1;
-        }
-        let [planes, edges] =
-            [layout.polygon, layout.edges].map(|[bytes, _]| room.take(polygons as usize, bytes));
-        self.polygons.push(Polygons { planes, edges, numbers });
+        let mut count = 0;
+        let number = |is_here: bool| {
+            count += u32::from(is_here);
+            count.saturating_sub(1)
+        };
+        let numbers = here.into_iter().map(number).collect();
+        let mut take = |[bytes, _]: [u64; 2]| room.take(count as usize, bytes);
+        let [planes, edges, axes] = [layout.plane, layout.edges, layout.axes].map(&mut take);
+        self.polygons.push(Polygons { planes, edges, axes, numbers });
     }
 
-    /// Seconds that a source shot in an environment loses to misses, with the search for the next
-    /// one afterwards.
-    pub fn shoot(&mut self, parcel: &Parcel) -> f64 {
-        let before = self.caches.time();
+    /// Touch what a source shot in an environment touches, with the search for the next one afterwards.
+    pub fn shoot(&mut self, parcel: &Parcel) {
         let problem = Arc::clone(&self.problem);
         let e = parcel.environment as usize;
         let environment = &problem.environments[e];
@@ -180,7 +173,6 @@ impl Storage {
             self.caches.touch(copy, self.mask_bytes);
         }
         self.pass_over_patches(e);
-        self.caches.time() - before
     }
 
     /// Masks take each other's places, as many in turn as there are environments to wait for.
@@ -195,50 +187,41 @@ impl Storage {
     fn touch(&mut self, environment: usize, mask: u64, record: Record) {
         let Storage { layout, caches, .. } = self;
         let polygons = &self.polygons[if layout.by_environment { environment } else { 0 }];
-        let number = |polygon: u32| u64::from(polygons.numbers[polygon as usize]);
+        let mut touch = |array: u64, number: u32, [bytes, touched]: [u64; 2]| {
+            caches.touch(array + u64::from(number) * bytes, touched);
+        };
+        let number = |polygon: u32| polygons.numbers[polygon as usize];
         match record {
             Record::Direction(pixel) => {
-                let pixel = u64::from(pixel);
-                caches.touch(mask + pixel / 64 * 8, 8);
-                caches.touch(self.directions + pixel * layout.direction, layout.direction);
-                if layout.weight > 0 {
-                    caches.touch(self.weights + pixel * layout.weight, layout.weight);
-                }
+                touch(mask, pixel / 64, [8, 8]);
+                touch(self.directions, pixel, [layout.direction; 2]);
             }
             Record::Cell { place, polygons } => {
                 let [cell, list] = self.cells[place as usize];
-                caches.touch(cell, 2 * layout.cell);
+                touch(cell, 0, layout.cell);
                 if polygons > 0 {
-                    caches.touch(list, u64::from(polygons) * layout.entry);
+                    touch(list, 0, [0, u64::from(polygons) * layout.entry]);
                 }
             }
-            Record::Plane(polygon) => {
-                let [whole, read] = layout.polygon;
-                caches.touch(polygons.planes + number(polygon) * whole, read);
-            }
-            Record::Edges(polygon) => {
-                let [whole, read] = layout.edges;
-                caches.touch(polygons.edges + number(polygon) * whole, read);
-            }
-            Record::Hit(patch) => {
-                let (patch, slots) = (u64::from(patch), self.patches[environment][0]);
-                caches.touch(slots + patch * layout.slot, layout.slot);
-                caches.touch(self.form_factors + patch * layout.form_factor, layout.form_factor);
+            Record::Plane(polygon) => touch(polygons.planes, number(polygon), layout.plane),
+            Record::Edges(polygon) => touch(polygons.edges, number(polygon), layout.edges),
+            Record::Hit { polygon, patch } => {
+                let ([slots, patches], [bytes, _, energy]) =
+                    (self.patches[environment], layout.patch);
+                touch(polygons.axes, number(polygon), layout.axes);
+                touch(slots, patch, [layout.slot; 2]);
+                touch(patches, patch, [bytes, energy]);
             }
         }
     }
 
-    /// Update all patches of an environment, each with its form factor, then look at all.
+    /// Update all patches of an environment, then look at all.
     fn pass_over_patches(&mut self, environment: usize) {
-        let Layout { patch: [whole, scanned], form_factor, .. } = self.layout;
+        let [bytes, updated, energy] = self.layout.patch;
         let count = self.problem.environments[environment].patches.len() as u64;
-        let patches = self.patches[environment][1];
-        for patch in 0..count {
-            self.caches.touch(self.form_factors + patch * form_factor, form_factor);
-            self.caches.touch(patches + patch * whole, whole);
-        }
-        for patch in 0..count {
-            self.caches.touch(patches + patch * whole, scanned);
+        for touched in [updated, energy] {
+            let starts = (0..count).map(|patch| self.patches[environment][1] + patch * bytes);
+            starts.for_each(|start| self.caches.touch(start, touched));
         }
     }
 
@@ -246,7 +229,9 @@ impl Storage {
     pub fn misses(&self) -> Vec<u64> {
         self.caches.misses().collect()
     }
-}
 
-/// The number of a polygon that is not there.
-const ABSENT: u32 = u32::MAX;
+    /// Seconds that all misses so far cost.
+    pub fn time(&self) -> f64 {
+        self.caches.time()
+    }
+}
