@@ -39,7 +39,12 @@ pub fn say(text: &str) {
     let _ = output.write_all(text.as_bytes()).and_then(|()| output.flush());
 }
 
-/// Prints to standard error.
+/// Prints a line to standard error.
+pub fn note(line: &str) {
+    let _ = writeln!(io::stderr().lock(), "{line}");
+}
+
+/// Prints what went wrong to standard error.
 pub fn complain(message: &str) {
-    let _ = writeln!(io::stderr().lock(), "error: {message}");
+    note(&format!("error: {message}"));
 }

@@ -44,9 +44,9 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let columns = [
         "bytes",
         "microseconds_one_way",
-        "paper_microseconds_one_way",
+        "published_microseconds_one_way",
         "megabytes_a_second",
-        "paper_megabytes_a_second",
+        "published_megabytes_a_second",
         "exchange_microseconds",
         "hot_spot_microseconds",
     ];

@@ -44,6 +44,9 @@ fn numbers(text: &mut String, place: &str, value: &Value) {
     }
 }
 
+/// Most places of a row that are drawn: of longer ones half as many at either end.
+const WIDEST: usize = 20;
+
 /// The places row by row: compute nodes by number, service nodes as s, empty ones as points.
 fn drawing(machine: &Machine) -> String {
     let (compute, nodes) = (machine.compute_nodes(), machine.nodes());
@@ -54,24 +57,40 @@ fn drawing(machine: &Machine) -> String {
         _ if number < nodes => format!("{:>width$}", "s"),
         _ => format!("{:>width$}", "."),
     };
-    let (columns, between, around) = match topology.shape() {
-        Shape::Mesh { width, .. } => (width.into(), "-", ""),
-        Shape::Torus { width, .. } => (width.into(), "-", "~"),
-        Shape::Crossbar { .. } => (nodes.min(16), " ", ""),
-        Shape::Bus { .. } => (nodes.min(16), " ", ""),
+    let (columns, name) = match topology.shape() {
+        Shape::Mesh { width, height } => (width.into(), format!("a mesh, {width} x {height}")),
+        Shape::Torus { width, height } => {
+            (width.into(), format!("a torus, {width} x {height}, ends (~) joined"))
+        }
+        Shape::Crossbar { places } => (16, format!("a crossbar (#) of {places} places")),
+        Shape::Bus { places } => (16, format!("a bus (=) with {places} places")),
     };
     let numbers: Vec<usize> = (0..topology.places()).collect();
     let rows = numbers.chunks(columns).map(|row| {
-        let row = row.iter().map(|&number| place(number)).collect::<Vec<_>>();
-        format!("  {around}{}{around}\n", row.join(&format!(" {between} ")))
+        let mut places: Vec<String> = row.iter().map(|&number| place(number)).collect();
+        if places.len() > WIDEST {
+            places.splice(WIDEST / 2..places.len() - WIDEST / 2, ["...".to_owned()]);
+        }
+        row_of(&places, topology.shape())
     });
-    let name = match topology.shape() {
-        Shape::Mesh { width, height } => format!("a mesh, {width} x {height}"),
-        Shape::Torus { width, height } => format!("a torus, {width} x {height}, ends (~) joined"),
-        Shape::Crossbar { places } => format!("a crossbar of {places} places"),
-        Shape::Bus { places } => format!("a bus with {places} places"),
-    };
     let service = machine.service_nodes();
-    let what = format!("{compute} compute nodes and {service} service nodes (s) on {name}:\n\n");
+    let s = if service == 1 { "" } else { "s" };
+    let what = format!("{compute} compute nodes and {service} service node{s} (s) on {name}:\n\n");
     what + &rows.collect::<String>()
+}
+
+/// A row of places, and what joins them.
+fn row_of(places: &[String], shape: Shape) -> String {
+    let hub = |sign: &str| {
+        let row = places.join("   ");
+        let links = places.iter().map(|place| format!("{:>1$}", "|", place.len()));
+        let links = links.collect::<Vec<_>>().join("   ");
+        format!("  {row}\n  {links}\n  {}\n", sign.repeat(row.len()))
+    };
+    match shape {
+        Shape::Mesh { .. } => format!("  {}\n", places.join(" - ")),
+        Shape::Torus { .. } => format!("  ~{}~\n", places.join(" - ")),
+        Shape::Crossbar { .. } => hub("#"),
+        Shape::Bus { .. } => hub("="),
+    }
 }

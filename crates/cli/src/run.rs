@@ -6,6 +6,7 @@ use std::sync::Arc;
 use clap::{Args, ValueEnum};
 use lab::{Endings, HostClock, On, Options, Plan, Results, ShotFiles};
 use multicomputer::quantity::{Dimension, QuantityError, parse};
+use reference::parallel;
 
 use crate::exit::Exit;
 use crate::progress::Progress;
@@ -45,6 +46,9 @@ pub struct Arguments {
     /// time. It can be emptied whenever nothing runs
     #[arg(long, value_name = "DIR")]
     keep_shots: Option<PathBuf>,
+    /// Print nothing but what went wrong: no progress, no table
+    #[arg(long, short)]
+    quiet: bool,
 }
 
 /// A number of bytes, with its unit.
@@ -65,7 +69,8 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let clock = HostClock::start();
     let network = arguments.network.iter().map(|rung| format!("network={rung}"));
     let set: Vec<String> = arguments.set.iter().cloned().chain(network).collect();
-    let plan = Arc::new(Plan::read(&arguments.file, &set)?);
+    let threads = arguments.threads.map_or_else(parallel::host_threads, usize::from);
+    let plan = Arc::new(Plan::read(&arguments.file, &set, threads)?);
     let default = || PathBuf::from("results").join(&plan.name);
     let out = arguments.out.clone().unwrap_or_else(default);
     let place = out.display();
@@ -73,14 +78,13 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     std::fs::create_dir_all(&out)
         .map_err(|error| Exit::bad_input(format!("{place}: no folder for results: {error}")))?;
 
-    let threads = arguments.threads.map_or_else(host_processors, usize::from);
     let on = match arguments.on {
         OnArgument::Simulation => On::Simulation,
         OnArgument::Threads => On::Threads,
     };
     let memory = arguments.memory.unwrap_or_else(lab::half_of_free_memory);
     let options = Options { threads, fresh: arguments.fresh, on, memory, shot_files };
-    let progress = Arc::new(Progress::new(Arc::clone(&plan)));
+    let progress = Arc::new(Progress::new(Arc::clone(&plan), arguments.quiet));
     let watch = {
         let progress = Arc::clone(&progress);
         Arc::new(move |event| progress.note(event))
@@ -97,6 +101,9 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         output += &format!("Shots could not be kept in {trouble}.\n");
     }
     output += &format!("Results are in {place}.\n");
+    if arguments.quiet {
+        output.clear();
+    }
     match results.failures() {
         0 => Ok(output),
         failures => {
@@ -122,8 +129,4 @@ fn shots(endings: &Endings) -> String {
         shots.archived,
         shots.cast,
     )
-}
-
-fn host_processors() -> usize {
-    std::thread::available_parallelism().map_or(1, |processors| processors.get())
 }

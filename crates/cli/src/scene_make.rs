@@ -1,4 +1,4 @@
-//! `virtwall scene make`: the scenes of RR-3008, section 5.1.
+//! `virtwall scene make`: the scenes of RR-3008, section 5.1, and small ones.
 
 use std::path::PathBuf;
 
@@ -10,7 +10,7 @@ use crate::exit::Exit;
 /// What to make.
 #[derive(Args)]
 pub struct Arguments {
-    /// office, rooms or building
+    /// office, rooms or building of the paper; room4, corridor, hole or cornell, small ones
     kind: SceneKind,
     /// Floors of the building, instead of its five; its files are then called building-N
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(2..=1000))]

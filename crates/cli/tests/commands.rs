@@ -6,7 +6,7 @@
 mod common;
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::time::Duration;
 
@@ -62,6 +62,14 @@ fn a_run_prints_its_table_and_writes_its_results() {
         "speed_up-by-processors.svg",
     ];
     assert_eq!(names, expected);
+}
+
+#[test]
+fn quiet_says_nothing() {
+    let project = Project::new(SWEEP);
+    let said = output(&project, &["run", "experiments/x.json", "--quiet"]);
+    assert_eq!(said, (0, String::new(), String::new()));
+    assert!(project.path("results/x/runs.csv").exists());
 }
 
 #[test]
@@ -163,11 +171,19 @@ fn a_killed_run_goes_on_where_it_was() {
     // The sweep was still under way, and no result of it stands there half-written.
     assert!(saved() >= 3, "it ended too soon to be killed");
     assert!(!project.path("results/x/runs.csv").exists());
+    let json = |path: PathBuf| -> serde_json::Value {
+        serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
+    };
+    let finished = fs::read_dir(&partial).unwrap().map(|entry| entry.unwrap().path());
+    let finished = finished.filter(|path| path.extension().is_some_and(|ending| ending == "json"));
+    let took: Vec<_> = finished.map(|path| json(path)[1]["cpu_s"].clone()).collect();
 
     assert_eq!(output(&project, &arguments).0, 0);
     assert_eq!(output(&project, &["run", "experiments/x.json", "--out", "whole"]).0, 0);
-    let times = fs::read_to_string(project.path("results/x/host-times.json")).unwrap();
-    assert!(times.contains("null"), "no run was found finished: {times}");
+    // Finished runs were not done again: what they took is what they took before.
+    let times = json(project.path("results/x/host-times.json"));
+    let times = times["runs"]["cpu_s"].as_array().unwrap();
+    assert!(took.iter().all(|took| times.contains(took)), "{took:?} {times:?}");
     for name in ["runs.csv", "manifest.json"] {
         let read = |out: &str| fs::read(project.path(out).join(name)).unwrap();
         assert!(read("results/x") == read("whole"), "{name}");

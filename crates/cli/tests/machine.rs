@@ -171,12 +171,33 @@ fn a_machine_is_shown_and_measured() {
     assert!(text.contains("\n     4096       105.06      38.99"), "{text}");
     assert!(text.contains("Published: latency 42 µs, bandwidth 65 MB/s."), "{text}");
     let svg = fs::read_to_string(project.path("bench/megabytes_a_second-by-bytes.svg")).unwrap();
-    assert!(svg.contains("paper"));
+    assert!(svg.contains("published"));
 
     let (code, text, _) = virtwall(&root(), &["machine", "bench", "paragon-osf1-early"]);
     assert_eq!(code, 0);
     // All nodes send four messages of 1 MiB before they read one, into buffers of 1 MiB.
     assert!(text.contains("\n  1048576     32358.40      32.41     deadlock"), "{text}");
+}
+
+#[test]
+fn every_machine_is_shown_and_measured() {
+    let files = fs::read_dir(root().join("machines")).unwrap().map(|entry| entry.unwrap().path());
+    let machines = files.filter(|path| path.extension().is_some_and(|ending| ending == "json"));
+    for machine in machines.map(|path| path.display().to_string()) {
+        let (code, text, stderr) = virtwall(&root(), &["machine", "show", &machine]);
+        assert_eq!((code, stderr.as_str()), (0, ""), "{machine}");
+        assert!(text.contains(" (s) on a "), "{text}");
+        let (code, text, stderr) = virtwall(&root(), &["machine", "bench", &machine]);
+        assert_eq!((code, stderr.as_str()), (0, ""), "{machine}");
+        assert!(text.contains("\nPublished: "), "{text}");
+    }
+    let hub = |name| virtwall(&root(), &["machine", "show", name]).1;
+    let bus = hub("workstations");
+    assert!(bus.contains("16 compute nodes and 1 service node (s) on a bus (=) with 17"), "{bus}");
+    assert!(bus.contains("\n   s\n   |\n  ==\n"), "{bus}");
+    assert!(hub("cluster-64").contains("\n   s\n   |\n  ##\n"));
+    let wide = hub("paragon-1024");
+    assert!(wide.contains("    8 -    9 - ... -   58 -   59 -"), "{wide}");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! The three scenes of RR-3008, §5.1, as committed: what the paper says of them is true of them.
+//! The scenes as committed: what RR-3008, §5.1, says of its three is true of them.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
 
@@ -33,7 +33,7 @@ fn objects(scene: &Scene, prefix: &str) -> usize {
 
 #[test]
 fn committed_scenes_are_the_generators() {
-    for kind in SceneKind::ALL {
+    for kind in SceneKind::all() {
         let made = make(kind, 1996);
         for (extension, text) in [("obj", made.obj), ("mtl", made.mtl)] {
             let path = scenes().join(format!("{kind}.{extension}"));
@@ -88,7 +88,7 @@ fn they_hold_what_the_paper_says() {
 #[test]
 fn they_are_closed() {
     let hemisphere = Hemisphere::new(HemisphereKind::Fibonacci, 4_096, true).unwrap();
-    for name in ["office", "rooms", "building"] {
+    for name in ["office", "rooms", "building", "room4", "corridor", "hole"] {
         let (space, environment) = meshed(&open(name));
         let (light, shots) = solve(&space, &environment, &hemisphere, 0.0, 1_500);
         assert_eq!(shots, 1_500);

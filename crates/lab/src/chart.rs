@@ -193,7 +193,7 @@ fn draw_key(area: &Area, chart: &Chart, drawing: &Drawing, ideal: bool) -> Drawn
         }
         area.draw(&Circle::new((x + px(18), y), px(4), WHITE.filled()))?;
         area.draw(&Circle::new((x + px(18), y), px(4), line(GREY, 1)))?;
-        area.draw(&name("paper", y))?;
+        area.draw(&name(drawing.publisher, y))?;
         y += px(21);
     }
     if ideal {

@@ -31,7 +31,7 @@ pub fn check(path: &Path) -> Result<String, Fault> {
     let document = Document::parse(path.display().to_string(), text)?;
     let has = |key: &str| document.value.get(key).is_some();
     if has("scene") || has("plots") {
-        let plan = Plan::read(path, &[])?;
+        let plan = Plan::read(path, &[], 1)?;
         let (runs, problems) = (plan.runs.len(), plan.problems.len());
         return Ok(format!("an experiment, {runs} runs of {problems} meshed scenes"));
     }

@@ -120,7 +120,7 @@ pub fn carry_out(
     machine: &Machine,
 ) -> Result<Figures, String> {
     let outcome = match on {
-        On::Simulation => network::simulate(run, &node_memory::machine(machine, point), point),
+        On::Simulation => network::simulate(run, &point.node_memory.laid_over(machine), point),
         On::Threads => virtwall::run_on_threads(run).map(|outcome| (outcome, None)),
     };
     let (outcome, network) = outcome.map_err(|error| error.to_string())?;

@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use cpu_time::ThreadTime;
+use serde::{Deserialize, Serialize};
 
 /// A moment of host time.
 pub struct HostClock {
@@ -30,7 +31,7 @@ impl HostClock {
 }
 
 /// What the host took for one run.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct HostTimes {
     /// CPU seconds of the thread that did it; what other threads did for it is not among them.
     pub cpu_s: f64,

@@ -70,7 +70,7 @@ fn lay_over(value: &mut Value, patch: Value) {
         (Value::Object(fields), Value::Object(changes)) => {
             for (name, change) in changes {
                 match change {
-                    Value::Null => drop(fields.remove(&name)),
+                    Value::Null => drop(fields.shift_remove(&name)),
                     change => lay_over(fields.entry(name).or_insert(Value::Null), change),
                 }
             }

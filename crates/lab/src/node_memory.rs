@@ -7,7 +7,6 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use virtwall::{Outcome, Thing};
 
-use crate::experiment::Experiment;
 use crate::quantity::{Period, Size};
 
 /// What an experiment says of the nodes' memory in place of the machine's file.
@@ -31,6 +30,15 @@ impl NodeMemoryFields {
         *self == NodeMemoryFields::default()
     }
 
+    /// The machine as the experiment has it.
+    pub fn laid_over<'a>(&self, machine: &'a Machine) -> Cow<'a, Machine> {
+        let mut machine = Cow::Borrowed(machine);
+        if !self.is_empty() {
+            machine.to_mut().node_memory.iter_mut().for_each(|memory| self.lay_over(memory));
+        }
+        machine
+    }
+
     fn lay_over(&self, memory: &mut NodeMemory) {
         let bytes = |size: &Size| size.value().round() as u64;
         if let Some(available) = &self.available {
@@ -52,16 +60,6 @@ pub struct NodeMemoryFigures {
     pub high_water: u64,
     /// How long nodes waited for pages, all added, seconds.
     pub paging_s: f64,
-}
-
-/// The machine as a point of an experiment has it.
-pub fn machine<'a>(machine: &'a Machine, point: &Experiment) -> Cow<'a, Machine> {
-    let mut machine = Cow::Borrowed(machine);
-    if !point.node_memory.is_empty() {
-        let memory = &mut machine.to_mut().node_memory;
-        memory.iter_mut().for_each(|memory| point.node_memory.lay_over(memory));
-    }
-    machine
 }
 
 /// The figures of a run on a machine whose memory is modelled.

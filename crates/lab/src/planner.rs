@@ -1,8 +1,8 @@
 //! How a plan is made from an experiment file: every check there is, and nothing loaded twice.
 
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use reference::parallel;
 use serde_json::Value;
 
 use crate::columns;
@@ -13,7 +13,7 @@ use crate::engine;
 use crate::experiment::{Experiment, Plot};
 use crate::fault::{Fault, unknown};
 use crate::file::{PLAIN, is_plain};
-use crate::find::{Shelf, find};
+use crate::find::{Found, Shelf, find};
 use crate::host_clock::HostClock;
 use crate::machine_file::MachineFile;
 use crate::measure::Measure;
@@ -29,11 +29,11 @@ const MOST_ENVIRONMENTS: u32 = 65_536;
 
 impl Plan {
     /// Reads an experiment file, lays `--set path=value` arguments over it, and validates all of
-    /// it, the scenes and machines that it names included.
+    /// it, the scenes and machines that it names included; `threads` make scenes ready side by side.
     ///
     /// # Errors
     /// The first fault met. Nothing was written.
-    pub fn read(path: &Path, arguments: &[String]) -> Result<Plan, Fault> {
+    pub fn read(path: &Path, arguments: &[String], threads: usize) -> Result<Plan, Fault> {
         let mut document = Document::read(path)?;
         for argument in arguments {
             document.set(argument)?;
@@ -44,9 +44,9 @@ impl Plan {
             folder: path.parent().unwrap_or(Path::new("")),
             sweep: &Sweep::of(&document)?,
             document: &document,
-            scenes: BTreeMap::new(),
+            threads,
+            scenes: Vec::new(),
             machines: Vec::new(),
-            problems: Vec::new(),
         };
         planner.plan()
     }
@@ -58,37 +58,56 @@ struct Planner<'a> {
     folder: &'a Path,
     document: &'a Document,
     sweep: &'a Sweep,
-    /// With the CPU seconds that each took.
-    scenes: BTreeMap<PathBuf, (Scene, f64)>,
+    threads: usize,
+    scenes: Vec<Found>,
     machines: Vec<Equipment>,
-    problems: Vec<Prepared>,
 }
+
+/// A point of the sweep whose scene is yet to be read.
+struct Draft<'a> {
+    point: &'a Point,
+    typed: Experiment,
+    /// Index into [`Planner::scenes`].
+    scene: usize,
+    /// Index into [`Planner::machines`].
+    machine: usize,
+}
+
+/// A scene that was read, and the CPU seconds that it took.
+type Loaded = (Scene, f64);
 
 impl Planner<'_> {
     /// Makes the plan.
     fn plan(mut self) -> Result<Plan, Fault> {
         let name = self.name()?;
-        let runs = self.sweep.points.iter().map(|point| self.run(point));
-        let runs = runs.collect::<Result<Vec<Run>, Fault>>()?;
+        let drafts = self.sweep.points.iter().map(|point| self.draft(point));
+        let drafts = drafts.collect::<Result<Vec<Draft>, Fault>>()?;
+        let scenes = self.load()?;
+        let (problems, problem_of) = self.problems(&drafts, &scenes)?;
+        let runs = drafts.into_iter().zip(problem_of).map(|(draft, problem)| {
+            let Draft { point, typed, machine, .. } = draft;
+            Run { index: point.index.clone(), point: typed, problem, machine }
+        });
+        let runs: Vec<Run> = runs.collect();
         let first = &runs[0].point;
         let (title, plots) = (first.title.clone(), first.plots.clone());
         let resolved = self.resolved(first);
         let (comparison, compared) = self.comparison(first)?;
 
         let mut files: Vec<FileDigest> =
-            self.scenes.values().flat_map(|(s, _)| s.digests.clone()).collect();
+            scenes.iter().flat_map(|(scene, _)| scene.digests.clone()).collect();
         files.extend(self.machines.iter().flat_map(|machine| machine.digests.clone()));
         files.extend(compared);
         files.sort();
         files.dedup();
-        let warnings = self.scenes.values().flat_map(|(s, _)| s.warnings.clone()).collect();
+        let warnings = scenes.iter().flat_map(|(scene, _)| scene.warnings.clone()).collect();
         let plan = Plan {
             name,
             title,
             resolved,
             axes: self.sweep.axes.clone(),
             runs,
-            problems: self.problems,
+            problems,
             machines: self.machines,
             comparison,
             plots,
@@ -109,8 +128,8 @@ impl Planner<'_> {
         Err(Fault::of_file(&self.document.file, message))
     }
 
-    /// Reads and checks one point of the sweep.
-    fn run(&mut self, point: &Point) -> Result<Run, Fault> {
+    /// Reads and checks one point of the sweep, but for its scene.
+    fn draft<'p>(&mut self, point: &'p Point) -> Result<Draft<'p>, Fault> {
         let locate = |place| self.sweep.place_in_file(point, place);
         let typed: Experiment = self.document.typed(&point.value, locate)?;
         let refuse = |field, message: String| Err(self.fault(point, field, message));
@@ -142,8 +161,8 @@ impl Planner<'_> {
         }
         network::check(&self.machines[machine].machine, typed.network)
             .map_err(|error| self.fault(point, "network", error.to_string()))?;
-        let problem = self.problem(point, &typed)?;
-        Ok(Run { index: point.index.clone(), point: typed, problem, machine })
+        let scene = self.scene(point, &typed)?;
+        Ok(Draft { point, typed, scene, machine })
     }
 
     /// A fault of a field at one point of the sweep.
@@ -163,28 +182,54 @@ impl Planner<'_> {
         Ok(self.machines.len() - 1)
     }
 
-    /// The scene of this point, meshed and cut as it says, each such problem built once.
-    fn problem(&mut self, point: &Point, typed: &Experiment) -> Result<usize, Fault> {
+    /// Where the scene of this point is.
+    fn scene(&mut self, point: &Point, typed: &Experiment) -> Result<usize, Fault> {
         let found = find(self.folder, Shelf::Scenes, &typed.scene)
             .map_err(|message| self.fault(point, "scene", message))?;
-        let clock = HostClock::start();
-        if !self.scenes.contains_key(&found.path) {
-            let scene = Scene::load(&found)?;
-            self.scenes.insert(found.path.clone(), (scene, clock.cpu_seconds()));
+        if let Some(known) = self.scenes.iter().position(|scene| scene.path == found.path) {
+            return Ok(known);
         }
-        let (scene, loading_s) = &self.scenes[&found.path];
-        let settings = Settings::of(typed, scene)
-            .map_err(|(field, message)| self.fault(point, field, message))?;
-        if let Some(built) = self.problems.iter().position(|p| p.settings == settings) {
-            return Ok(built);
+        self.scenes.push(found);
+        Ok(self.scenes.len() - 1)
+    }
+
+    /// Reads all scenes, each once.
+    fn load(&self) -> Result<Vec<Loaded>, Fault> {
+        let load = |scene: usize| {
+            let clock = HostClock::start();
+            Ok((Scene::load(&self.scenes[scene])?, clock.cpu_seconds()))
+        };
+        parallel::map(self.scenes.len(), self.threads, load, || ()).into_iter().collect()
+    }
+
+    /// The scenes, meshed and cut as the points say, each such problem once, and which is whose.
+    fn problems(
+        &self,
+        drafts: &[Draft],
+        scenes: &[Loaded],
+    ) -> Result<(Vec<Prepared>, Vec<usize>), Fault> {
+        let mut wanted: Vec<(Settings, &Draft)> = Vec::new();
+        let mut problem_of = Vec::new();
+        for draft in drafts {
+            let settings = Settings::of(&draft.typed, &scenes[draft.scene].0)
+                .map_err(|(field, message)| self.fault(draft.point, field, message))?;
+            let known = wanted.iter().position(|(other, _)| *other == settings);
+            problem_of.push(known.unwrap_or(wanted.len()));
+            if known.is_none() {
+                wanted.push((settings, draft));
+            }
         }
-        let clock = HostClock::start();
-        let problem = engine::problem(&scene.geometry, &settings)
-            .map_err(|(field, message)| self.fault(point, field, message))?;
-        let set_up_s = loading_s + clock.cpu_seconds();
-        let digests = scene.digests.clone();
-        self.problems.push(Prepared { settings, problem, digests, set_up_s });
-        Ok(self.problems.len() - 1)
+        let prepare = |number: usize| {
+            let (settings, draft) = &wanted[number];
+            let (scene, loading_s) = &scenes[draft.scene];
+            let clock = HostClock::start();
+            let problem = engine::problem(&scene.geometry, settings)
+                .map_err(|(field, message)| self.fault(draft.point, field, message))?;
+            let (settings, digests) = (settings.clone(), scene.digests.clone());
+            Ok(Prepared { settings, problem, digests, set_up_s: loading_s + clock.cpu_seconds() })
+        };
+        let problems = parallel::map(wanted.len(), self.threads, prepare, || ());
+        Ok((problems.into_iter().collect::<Result<_, Fault>>()?, problem_of))
     }
 
     /// The experiment file with every default filled in: a file that says the same.

@@ -56,7 +56,7 @@ pub type Ending = Result<Figures, String>;
 pub struct Endings {
     /// In the plan's order; none for a run that was not come to.
     pub runs: Vec<Option<Ending>>,
-    /// What the host took for each run; none for those found finished.
+    /// What the host took for each run, also where it was found finished.
     pub host: Vec<Option<HostTimes>>,
     /// What became of the shots that runs asked for.
     pub shots: ShotCounts,
@@ -74,7 +74,9 @@ pub fn carry_out(plan: &Plan, out: &Path, options: &Options, watch: Watch) -> io
         saved.forget()?;
     }
     let keys: Vec<String> = plan.runs.iter().map(|run| saved.key(plan, run, options.on)).collect();
-    let found: Vec<Option<Ending>> = keys.iter().map(|key| saved.load(key).map(Ok)).collect();
+    let found = keys.iter().map(|key| saved.load(key));
+    let (found, host): (Vec<Option<Ending>>, Vec<Option<HostTimes>>) =
+        found.map(|run| run.map(|(figures, host)| (Ok(figures), host)).unzip()).unzip();
     found.iter().flatten().for_each(|_| watch(Event::Found));
 
     let waiting = (0..plan.runs.len()).filter(|&run| found[run].is_none());
@@ -89,7 +91,7 @@ pub fn carry_out(plan: &Plan, out: &Path, options: &Options, watch: Watch) -> io
         helpers: Arc::new(Helpers::of(threads)),
         queue: Mutex::new(Queue::new(plan, waiting)),
         runs: Mutex::new(found),
-        host: Mutex::new(vec![None; plan.runs.len()]),
+        host: Mutex::new(host),
         trouble: Mutex::new(None),
     };
     std::thread::scope(|scope| {
@@ -129,17 +131,17 @@ impl Desk<'_> {
             };
             let clock = HostClock::start();
             let ending = self.run(&task);
-            if let Ok(figures) = &ending
-                && let Err(error) = self.saved.store(&self.keys[task.run], figures)
-            {
-                *held(&self.trouble) = Some(error);
-            }
             let run = task.run;
             let host = HostTimes {
                 cpu_s: clock.cpu_seconds(),
                 set_up_s: self.plan.problems[task.problem].set_up_s,
                 clock_s: clock.seconds(),
             };
+            if let Ok(figures) = &ending
+                && let Err(error) = self.saved.store(&self.keys[run], figures, host)
+            {
+                *held(&self.trouble) = Some(error);
+            }
             held(&self.runs)[run] = Some(ending);
             held(&self.host)[run] = Some(host);
             held(&self.queue).done(&task);

@@ -12,6 +12,7 @@ use crate::engine::On;
 use crate::experiment::Experiment;
 use crate::figures::Figures;
 use crate::file;
+use crate::host_clock::HostTimes;
 use crate::plan::{Plan, Run};
 use crate::program::program;
 
@@ -51,20 +52,20 @@ impl Saved {
         sha256(conditions.to_string().as_bytes())
     }
 
-    /// The figures of the run of this key, if it was finished. A file that is damaged counts as
-    /// none.
-    pub fn load(&self, key: &str) -> Option<Figures> {
+    /// The figures of the run of this key, and what the host took for it, if it was finished. A file
+    /// that is damaged counts as none.
+    pub fn load(&self, key: &str) -> Option<(Figures, HostTimes)> {
         let text = fs::read_to_string(self.path(key)).ok()?;
         serde_json::from_str(&text).ok()
     }
 
-    /// Keeps the figures of a finished run.
+    /// Keeps the figures of a finished run, and what the host took for it.
     ///
     /// # Errors
     /// If the folder or the file cannot be written.
-    pub fn store(&self, key: &str, figures: &Figures) -> io::Result<()> {
+    pub fn store(&self, key: &str, figures: &Figures, host: HostTimes) -> io::Result<()> {
         fs::create_dir_all(&self.folder)?;
-        file::write(&self.path(key), &serde_json::to_vec(figures)?)
+        file::write(&self.path(key), &serde_json::to_vec(&(figures, host))?)
     }
 
     /// Forgets all finished runs.

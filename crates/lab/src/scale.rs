@@ -126,8 +126,10 @@ fn nice_step(step: f64) -> f64 {
 
 fn tick_text(value: f64) -> String {
     let magnitude = value.abs();
-    if value != 0.0 && !(1e-4..1e7).contains(&magnitude) {
-        return format!("{value:.0e}");
+    let short = format!("{value:.0e}");
+    let much = magnitude >= 1e7 || magnitude >= 1e5 && short.parse() == Ok(value);
+    if value != 0.0 && (magnitude < 1e-4 || much) {
+        return short;
     }
     // Ticks have few digits; rounding hides that 3 × 0.1 is not quite 0.3.
     ((value * 1e6).round() / 1e6).to_string()

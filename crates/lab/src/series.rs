@@ -29,6 +29,8 @@ pub struct Drawing {
     pub unit: String,
     /// Whether x is a swept field and not a figure of the runs.
     pub swept: bool,
+    /// What the published points are called: the prefix of their column.
+    pub publisher: &'static str,
 }
 
 impl Drawing {
@@ -40,8 +42,11 @@ impl Drawing {
         let unit = along.unit(table);
         let numeric = unit.is_some();
         let unit = unit.unwrap_or_default().to_owned();
-        let mut drawing = Drawing { series: Vec::new(), categories: Vec::new(), unit, swept };
-        let paper = format!("paper_{}", plot.y);
+        let known = |publisher| table.columns.contains(&format!("{publisher}_{}", plot.y));
+        let publisher = if known("published") { "published" } else { "paper" };
+        let (series, categories) = (Vec::new(), Vec::new());
+        let mut drawing = Drawing { series, categories, unit, swept, publisher };
+        let paper = format!("{publisher}_{}", plot.y);
         for row in &table.rows {
             let x = if numeric {
                 along.value(table, row)

@@ -12,7 +12,7 @@ use common::{Project, SWEEP};
 use lab::{Endings, On, Options, Plan, Results, ShotFiles, carry_out};
 
 fn swept(project: &Project, memory: usize) -> (Results, Endings) {
-    let plan = Plan::read(&project.path("experiments/x.json"), &[]).unwrap();
+    let plan = Plan::read(&project.path("experiments/x.json"), &[], 1).unwrap();
     let shot_files = Some(ShotFiles::open(&project.path("shots")).unwrap());
     let options = Options { threads: 2, fresh: true, on: On::Simulation, memory, shot_files };
     let endings = carry_out(&plan, &project.path("out"), &options, Arc::new(|_| {})).unwrap();
@@ -82,7 +82,7 @@ fn damage_is_never_a_wrong_result() {
 fn a_folder_that_has_gone_is_told() {
     let project = Project::new(SWEEP);
     let (results, _) = swept(&project, 1 << 30);
-    let plan = Plan::read(&project.path("experiments/x.json"), &[]).unwrap();
+    let plan = Plan::read(&project.path("experiments/x.json"), &[], 1).unwrap();
     let shot_files = Some(ShotFiles::open(&project.path("gone")).unwrap());
     fs::remove_dir(project.path("gone")).unwrap();
     let (on, memory) = (On::Simulation, 1 << 30);
@@ -100,7 +100,7 @@ fn sweeps_at_a_time_do_not_harm_each_other() {
     let tables = std::thread::scope(|scope| {
         let sweeps = [(); 3].map(|()| {
             scope.spawn(|| {
-                let plan = Plan::read(&project.path("experiments/x.json"), &[]).unwrap();
+                let plan = Plan::read(&project.path("experiments/x.json"), &[], 1).unwrap();
                 let shot_files = Some(ShotFiles::open(&project.path("shots")).unwrap());
                 let (on, memory) = (On::Simulation, 1 << 20);
                 let options = Options { threads: 1, fresh: false, on, memory, shot_files };

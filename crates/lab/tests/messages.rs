@@ -12,7 +12,7 @@ use lab::Plan;
 /// The message for an experiment file, with the project's folder taken out of it.
 fn message(project: &Project, arguments: &[&str]) -> String {
     let arguments: Vec<String> = arguments.iter().map(|&a| a.to_owned()).collect();
-    let Err(fault) = Plan::read(&project.path("experiments/x.json"), &arguments) else {
+    let Err(fault) = Plan::read(&project.path("experiments/x.json"), &arguments, 1) else {
         return "nothing wrong".to_owned();
     };
     fault.to_string().replace(&project.path("").display().to_string(), "")
@@ -261,6 +261,6 @@ fn a_name_that_would_write_elsewhere_is_refused() {
     let project = Project::new(common::SWEEP);
     let hidden = project.path("experiments/..json");
     fs::copy(project.path("experiments/x.json"), &hidden).unwrap();
-    let fault = Plan::read(&hidden, &[]).err().unwrap().to_string();
+    let fault = Plan::read(&hidden, &[], 1).err().unwrap().to_string();
     assert!(fault.contains("the name \".\" names its results; expected letters"), "{fault}");
 }

@@ -17,7 +17,7 @@ fn options(threads: usize) -> Options {
 }
 
 fn plan(project: &Project) -> Plan {
-    Plan::read(&project.path("experiments/x.json"), &[]).unwrap()
+    Plan::read(&project.path("experiments/x.json"), &[], 1).unwrap()
 }
 
 /// Carries the plan out; returns the results, and how many runs were found and how many done.

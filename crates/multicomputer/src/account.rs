@@ -2,15 +2,13 @@
 
 use desim::{Duration, Time};
 
-/// What a node did with its time, and its traffic. Compute, cache misses, both overheads, packing,
-/// copying, waiting for room, paging and idle sum exactly to the node's life: from the start until it
-/// finished, or until the account was drawn up.
+/// What a node did with its time, and its traffic. Compute, both overheads, packing, copying, waiting
+/// for room, paging and idle sum exactly to the node's life: from the start until it finished, or
+/// until the account was drawn up.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct NodeAccount {
     /// Time in kernels.
     pub compute: Duration,
-    /// Time in which kernels waited for what was not in the processor's caches.
-    pub missing: Duration,
     /// Time given to sending messages.
     pub send_overhead: Duration,
     /// Time given to taking messages in.
@@ -61,7 +59,7 @@ impl NodeAccount {
 
     /// The node's life: all spans.
     pub fn life(&self) -> Duration {
-        self.compute + self.missing + self.overhead() + self.paging + self.idle
+        self.compute + self.overhead() + self.paging + self.idle
     }
 }
 
@@ -80,18 +78,28 @@ impl LayerAccount {
 
 /// What a node is doing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) enum Activity {
+pub enum Activity {
+    /// It runs a kernel.
     Compute,
-    Missing,
+    /// It gives a message away.
     Send,
+    /// It takes messages in.
     Receive,
+    /// It waits for pages that were not in memory.
     Paging,
+    /// It makes packets.
     Pack,
+    /// It copies messages that arrived with no receive posted.
     Copy,
+    /// It waits for room in a receiver's buffers.
     WaitForRoom,
+    /// Nothing.
     #[default]
     Idle,
 }
+
+/// Is told a span.
+type Tell = Box<dyn FnMut(Activity, Time, Time)>;
 
 /// An account that is being kept: at any moment the node does one thing, and when it turns to
 /// another the time since the last turn is entered. So nothing is lost and nothing counted twice.
@@ -100,9 +108,16 @@ pub(crate) struct Ledger {
     account: NodeAccount,
     activity: Activity,
     since: Time,
+    /// Is told every span that is entered.
+    observer: Option<Tell>,
 }
 
 impl Ledger {
+    /// Has every span from now on told, as (activity, from, to).
+    pub(crate) fn observe(&mut self, observer: impl FnMut(Activity, Time, Time) + 'static) {
+        self.observer = Some(Box::new(observer));
+    }
+
     /// The node turns to another activity.
     pub(crate) fn turn_to(&mut self, activity: Activity, now: Time) {
         self.enter(now);
@@ -148,7 +163,6 @@ impl Ledger {
             let spent = now - self.since;
             *match self.activity {
                 Activity::Compute => &mut self.account.compute,
-                Activity::Missing => &mut self.account.missing,
                 Activity::Send => &mut self.account.send_overhead,
                 Activity::Receive => &mut self.account.receive_overhead,
                 Activity::Paging => &mut self.account.paging,
@@ -157,6 +171,9 @@ impl Ledger {
                 Activity::WaitForRoom => &mut self.account.layer.waiting_for_room,
                 Activity::Idle => &mut self.account.idle,
             } += spent;
+            if let Some(observer) = self.observer.as_mut().filter(|_| spent > Duration::ZERO) {
+                observer(self.activity, self.since, now);
+            }
         }
         self.since = now;
     }

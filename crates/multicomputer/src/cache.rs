@@ -53,8 +53,6 @@ struct Cache {
     level: CacheLevel,
     /// The line held by each way of each set, the one used last first.
     held: Vec<u64>,
-    /// Sets of which a line in constant use occupies one way.
-    hot_sets: u64,
     misses: u64,
 }
 
@@ -62,17 +60,14 @@ struct Cache {
 const NONE: u64 = u64::MAX;
 
 impl Caches {
-    /// Empty caches, the nearest level first. `hot` bytes, the frames and variables of the innermost
-    /// loops, are touched between any two other touches: they are always the last used of their
-    /// sets in the first level.
-    pub fn new(levels: &[CacheLevel], hot: u64) -> Caches {
-        let cache = |(i, level): (usize, &CacheLevel)| Cache {
+    /// Empty caches, the nearest level first.
+    pub fn new(levels: &[CacheLevel]) -> Caches {
+        let cache = |level: &CacheLevel| Cache {
             held: vec![NONE; (level.size / level.line) as usize],
-            hot_sets: if i == 0 { hot.div_ceil(level.line) } else { 0 },
             misses: 0,
             level: level.clone(),
         };
-        Caches { levels: levels.iter().enumerate().map(cache).collect() }
+        Caches { levels: levels.iter().map(cache).collect() }
     }
 
     /// Read or write some bytes, at least one.
@@ -103,15 +98,8 @@ impl Cache {
     #[inline]
     fn touch(&mut self, line: u64) -> bool {
         let ways = self.level.ways;
-        let set = line % (self.held.len() as u64 / ways);
-        let hot = set < self.hot_sets;
-        if hot && ways == 1 {
-            // It displaces the hot line, which displaces it in turn.
-            self.misses += 2;
-            return false;
-        }
-        let first = (set * ways) as usize;
-        let held = &mut self.held[first..first + (ways - u64::from(hot)) as usize];
+        let first = (line % (self.held.len() as u64 / ways) * ways) as usize;
+        let held = &mut self.held[first..first + ways as usize];
         if held[0] == line {
             return true;
         }
@@ -132,8 +120,8 @@ mod tests {
         CacheLevel { size, line, ways, miss_time: 1.0 }
     }
 
-    fn misses(levels: &[CacheLevel], hot: u64, touches: &[(u64, u64)]) -> Vec<u64> {
-        let mut caches = Caches::new(levels, hot);
+    fn misses(levels: &[CacheLevel], touches: &[(u64, u64)]) -> Vec<u64> {
+        let mut caches = Caches::new(levels);
         touches.iter().for_each(|&(address, bytes)| caches.touch(address, bytes));
         caches.misses().collect()
     }
@@ -141,28 +129,20 @@ mod tests {
     #[test]
     fn lines_of_one_set_displace_each_other_where_there_is_one_way() {
         let touches = [(0, 8), (256, 8), (0, 8), (256, 8)];
-        assert_eq!(misses(&[level(256, 32, 1)], 0, &touches), [4]);
-        assert_eq!(misses(&[level(256, 32, 2)], 0, &touches), [2]);
+        assert_eq!(misses(&[level(256, 32, 1)], &touches), [4]);
+        assert_eq!(misses(&[level(256, 32, 2)], &touches), [2]);
     }
 
     #[test]
     fn the_least_recently_used_line_makes_room() {
         let touches = [(0, 1), (128, 1), (0, 1), (256, 1), (0, 1), (128, 1)];
-        assert_eq!(misses(&[level(256, 32, 2)], 0, &touches), [4]);
+        assert_eq!(misses(&[level(256, 32, 2)], &touches), [4]);
     }
 
     #[test]
     fn a_touch_takes_every_line_that_it_reaches_into_and_the_next_level_sees_misses_alone() {
         let levels = [level(128, 16, 1), level(1024, 64, 1)];
-        assert_eq!(misses(&levels, 0, &[(8, 64), (8, 64)]), [5, 2]);
-        assert_eq!(misses(&levels, 0, &[(0, 16), (128, 16), (0, 16)]), [3, 2]);
-    }
-
-    #[test]
-    fn hot_lines_take_a_way_of_their_sets() {
-        let twice = [(0, 8), (0, 8)];
-        assert_eq!(misses(&[level(256, 32, 1)], 32, &twice), [4]);
-        assert_eq!(misses(&[level(256, 32, 2)], 32, &twice), [1]);
-        assert_eq!(misses(&[level(256, 32, 1)], 32, &[(32, 8), (32, 8)]), [1]);
+        assert_eq!(misses(&levels, &[(8, 64), (8, 64)]), [5, 2]);
+        assert_eq!(misses(&levels, &[(0, 16), (128, 16), (0, 16)]), [3, 2]);
     }
 }

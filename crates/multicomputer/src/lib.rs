@@ -21,6 +21,7 @@ mod message_layer;
 mod multicomputer;
 mod network;
 mod node;
+mod observer;
 mod processor;
 pub mod quantity;
 mod record;
@@ -31,7 +32,7 @@ mod topology;
 mod trace;
 mod traffic;
 
-pub use account::{LayerAccount, NodeAccount};
+pub use account::{Activity, LayerAccount, NodeAccount};
 pub use auto::{Choice, choose};
 pub use buffers::{FullBuffers, Rank};
 pub use cache::{CacheLevel, Caches};
@@ -48,6 +49,7 @@ pub use network::{
     Stall, Waiting, Wormhole,
 };
 pub use node::Node;
+pub use observer::{MachineObserver, Sent};
 pub use processor::Processor;
 pub use record::{Letter, Record, Recorder};
 pub use replay::{Course, ReplayDeadlock, replay};

@@ -1,6 +1,6 @@
 //! A machine that runs: its nodes, their mail, and the network between them, over [`desim`].
 
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
 use std::rc::{Rc, Weak};
 
 use desim::{Alarm, Handle};
@@ -10,6 +10,7 @@ use crate::buffers::{FullBuffers, Rank};
 use crate::machine::{Machine, MachineError};
 use crate::network::{ChannelUse, Deadlock, Network};
 use crate::node::Node;
+use crate::observer::MachineObserver;
 use crate::shared::{NodeState, Shared, Wires};
 
 /// A machine on which processes run that send each other messages of type `M`. Clones are the same
@@ -64,8 +65,22 @@ impl<M: 'static> Multicomputer<M> {
                 news,
                 nodes,
                 full_buffers: RefCell::default(),
+                observer: OnceCell::new(),
             }
         })))
+    }
+
+    /// Has all that happens from now on told to `observer`; a machine has no other after it.
+    pub fn observe(&self, observer: &Rc<RefCell<dyn MachineObserver<M>>>) {
+        if self.0.observer.set(Rc::clone(observer)).is_err() {
+            return;
+        }
+        for (rank, node) in self.0.nodes.iter().enumerate() {
+            let observer = Rc::clone(observer);
+            node.ledger.borrow_mut().observe(move |activity, from, to| {
+                observer.borrow_mut().activity(rank, activity, from, to);
+            });
+        }
     }
 
     /// The node of a process, to be moved into it.

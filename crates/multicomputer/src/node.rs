@@ -42,11 +42,6 @@ impl<M: 'static> Node<M> {
         self.busy(Activity::Compute, self.now() + span).await;
     }
 
-    /// Keeps the processor waiting for a span, for what its caches miss.
-    pub async fn miss(&self, span: Duration) {
-        self.busy(Activity::Missing, self.now() + span).await;
-    }
-
     /// Sends a message. The processor is busy with it until the send overhead is over, and then goes
     /// on; the message travels by itself. With a coprocessor that has nothing to do with it but to hand
     /// it over; without one, it first waits for room in the receiver's buffers and makes packets.
@@ -100,6 +95,7 @@ impl<M: 'static> Node<M> {
         let (node, layer) = (self.state(), &self.shared.layer);
         let messages = node.take_mail();
         if !messages.is_empty() {
+            self.shared.tell(|observer| observer.read(self.now(), self.rank, messages.len()));
             let (count, unposted) = (messages.len() as u64, node.unposted.take());
             let overhead = || self.shared.wires.borrow().network.receive_overhead();
             let overhead = layer.handover.unwrap_or_else(overhead);

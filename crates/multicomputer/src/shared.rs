@@ -1,7 +1,7 @@
 //! What all nodes of a running multicomputer share: the network, and what each node keeps for the
 //! messages that come to it.
 
-use std::cell::{Cell, RefCell};
+use std::cell::{Cell, OnceCell, RefCell};
 use std::collections::VecDeque;
 use std::mem;
 use std::rc::Rc;
@@ -14,6 +14,7 @@ use crate::machine::Machine;
 use crate::memory::Residence;
 use crate::message_layer::MessageLayer;
 use crate::network::{Arrival, Deadlock, Message, Network};
+use crate::observer::{MachineObserver, Sent};
 use crate::topology::Place;
 
 /// What all nodes of a multicomputer share.
@@ -26,6 +27,7 @@ pub(crate) struct Shared<M> {
     pub(crate) nodes: Vec<NodeState<M>>,
     /// The processes that will never find room for a message.
     pub(crate) full_buffers: RefCell<Option<FullBuffers>>,
+    pub(crate) observer: OnceCell<Rc<RefCell<dyn MachineObserver<M>>>>,
 }
 
 /// A message, and between which processes.
@@ -55,9 +57,14 @@ impl<M> Wires<M> {
         Wires { network, under_way, first: 0, arrived, deadlock: None }
     }
 
+    /// How many messages have been sent.
+    fn sent(&self) -> u64 {
+        self.first + self.under_way.len() as u64
+    }
+
     /// Sends a message; returns when the sending processor may go on.
     fn send(&mut self, now: Time, (from, to): (Place, Place), letter: Letter<M>) -> Time {
-        let id = self.first + self.under_way.len() as u64;
+        let id = self.sent();
         self.under_way.push_back(Some((letter.to, letter.message)));
         self.network.send(now, Message { id, from, to, bytes: letter.bytes })
     }
@@ -181,6 +188,11 @@ impl<M: 'static> Shared<M> {
     pub(crate) fn inject(&self, letter: Letter<M>) -> Time {
         let mut wires = self.wires.borrow_mut();
         let ends = (self.nodes[letter.from].place, self.nodes[letter.to].place);
+        self.tell(|observer| {
+            let Letter { from, to, bytes, ref message } = letter;
+            let number = wires.sent();
+            observer.sent(self.handle.now(), Sent { number, from, to, bytes, message });
+        });
         let sender_free = wires.send(self.handle.now(), ends, letter);
         self.expect_news(&wires);
         sender_free
@@ -199,6 +211,9 @@ impl<M: 'static> Shared<M> {
         for arrival in arrived.drain(..) {
             let Message { id, bytes, .. } = arrival.message;
             let letter = self.wires.borrow_mut().take(id);
+            if let Some((to, _)) = letter {
+                self.tell(|observer| observer.arrived(arrival.at, to, id, &arrival.stalls));
+            }
             match letter {
                 Some((to, message)) if self.layer.handover.is_some() => {
                     self.assign(to, Job::Receive(bytes, message));
@@ -210,6 +225,13 @@ impl<M: 'static> Shared<M> {
         let mut wires = self.wires.borrow_mut();
         wires.arrived = arrived;
         self.expect_news(&wires);
+    }
+
+    /// Tells who observes this machine, if somebody does.
+    pub(crate) fn tell(&self, news: impl FnOnce(&mut dyn MachineObserver<M>)) {
+        if let Some(observer) = self.observer.get() {
+            news(&mut *observer.borrow_mut());
+        }
     }
 
     fn expect_news(&self, wires: &Wires<M>) {

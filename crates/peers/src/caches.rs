@@ -43,7 +43,7 @@ const NATIVE: Layout = Layout {
     axes: [80, 80],
     slot: 4,
     patch: [304, 96, 16],
-    hot: 2_048,
+    frames: [2_048, 144, 72],
     gap: 0,
     by_environment: false,
 };
@@ -254,7 +254,8 @@ pub fn temp(scene: &str, environments: u32, hot: u64) -> Result<(), String> {
     for machine in MACHINES {
         let levels = levels(machine)?;
         for gap in GAPS {
-            let mut storage = Storage::new(&problem, Layout { gap, hot, ..NATIVE }, &levels);
+            let mut storage =
+                Storage::new(&problem, Layout { gap, frames: [hot, 144, 72], ..NATIVE }, &levels);
             let (first, others) = shots.split_at(uncounted(&shots));
             first.iter().for_each(|parcel| storage.shoot(parcel));
             let before = storage.misses();

@@ -15,7 +15,7 @@ use virtwall::{Parcel, Problem};
 pub fn plan(set: &[&str]) -> Result<lab::Plan, String> {
     let set: Vec<String> =
         [&["processors=1"], set].concat().into_iter().map(str::to_owned).collect();
-    let plan = lab::Plan::read(Path::new("experiments/table1.json"), &set);
+    let plan = lab::Plan::read(Path::new("experiments/table1.json"), &set, 1);
     plan.map_err(|fault| fault.to_string())
 }
 

@@ -140,6 +140,11 @@ impl Obj {
 
     /// A planar four-sided polygon, its corners counter-clockwise seen from the front.
     pub fn quad(&mut self, material: &'static Material, corners: [Point; 4]) {
+        self.polygon(material, &corners);
+    }
+
+    /// A planar convex polygon, its corners counter-clockwise seen from the front.
+    pub fn polygon(&mut self, material: &'static Material, corners: &[Point]) {
         if self.current != Some(material.name) {
             put(&mut self.faces, format_args!("usemtl {}\n", material.name));
             self.current = Some(material.name);
@@ -147,8 +152,9 @@ impl Obj {
                 self.materials.push(material);
             }
         }
-        let [a, b, c, d] = corners.map(|corner| self.vertex(corner));
-        put(&mut self.faces, format_args!("f {a} {b} {c} {d}\n"));
+        let vertices = corners.iter().map(|&corner| format!(" {}", self.vertex(corner)));
+        let vertices: String = vertices.collect();
+        put(&mut self.faces, format_args!("f{vertices}\n"));
     }
 
     /// A rectangle.
@@ -223,9 +229,9 @@ impl Obj {
         self.rect(back, hollow(facing, depth, opening).inner(facing));
     }
 
-    /// The text of both files.
-    pub fn into_text(self, name: &str, seed: u64) -> SceneText {
-        let head = format!("# {name}, seed {seed}: a scene of RR-3008, section 5.1\n");
+    /// The text of both files, each with `about` as its first line.
+    pub fn into_text(self, name: &str, about: &str) -> SceneText {
+        let head = format!("# {about}\n");
         let obj = format!(
             "{head}# metres, z up, fronts counter-clockwise\nmtllib {name}.mtl\n{}{}",
             self.vertices, self.faces

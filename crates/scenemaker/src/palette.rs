@@ -34,7 +34,15 @@ macro_rules! materials {
 /// A ceiling panel, slightly warm.
 pub static LIGHT: Material = Material { name: "light", kd: [0.7; 3], ke: [640.0, 600.0, 530.0] };
 
+/// The light of the Cornell box; its colours, and those of the walls, are what renderers commonly make
+/// of the published spectra.
+pub static BOX_LIGHT: Material =
+    Material { name: "box_light", kd: [0.78; 3], ke: [17.0, 12.0, 4.0] };
+
 materials! {
+    BOX_WHITE "white" [0.725, 0.71, 0.68]
+    BOX_RED "box_red" [0.63, 0.065, 0.05]
+    BOX_GREEN "box_green" [0.14, 0.45, 0.091]
     CEILING "ceiling" [0.78, 0.78, 0.76]
     WALL "wall" [0.66, 0.64, 0.58]
     WARM_WALL "warm_wall" [0.68, 0.58, 0.45]

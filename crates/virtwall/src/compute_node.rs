@@ -144,6 +144,9 @@ impl ComputeNode {
             }
             (None, None) => None,
         };
+        if let Some(source) = &choice {
+            process.observe(|to| to.selected(process.now(), process.rank(), source));
+        }
         self.foresee_local();
         choice
     }
@@ -158,6 +161,7 @@ impl ComputeNode {
     fn take_received(&mut self, process: &impl Process, place: usize) -> Parcel {
         let (turn, parcel) = self.queue.take(place);
         process.release(footprint::queued(turn));
+        self.tell_queue(process);
         self.tally.counts.received_shots += 1;
         self.tally.parcels_taken += 1;
         self.tally.taken += parcel.source.power * parcel.form_factor;
@@ -177,7 +181,8 @@ impl ComputeNode {
         process.fetch(source).await;
         on_shot();
         self.tally.work += shot.work;
-        self.region.receive(source, &shot);
+        let reflected = self.region.receive(source, &shot);
+        process.observe(|to| to.shot(process.now(), process.rank(), source, &shot, reflected));
         shot
     }
 
@@ -243,6 +248,11 @@ impl ComputeNode {
             // Taken up by another parcel, and with it when that is shot.
             None => self.tally.parcels_taken += 1,
         }
+        self.tell_queue(process);
+    }
+
+    fn tell_queue(&self, process: &impl Process) {
+        process.observe(|to| to.queue(process.now(), process.rank(), self.queue.len()));
     }
 
     /// §4.2.4: with nothing left to do, pass the token on if it is here, and wait for something to

@@ -36,6 +36,14 @@ pub struct Parcel {
     pub form_factor: f64,
 }
 
+impl Parcel {
+    /// Whether the emitter lies in the environment that the source is shot in. What has left an
+    /// environment never comes back: it is a box, and rays are straight.
+    pub fn is_local(&self) -> bool {
+        self.environment == self.source.environment
+    }
+}
+
 /// One patch of an update.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PatchUpdate {
@@ -58,6 +66,56 @@ pub struct Sums {
     pub sent: f64,
     /// Taken from its queue and shot so far.
     pub taken: f64,
+}
+
+/// What a message is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum MessageKind {
+    /// [`Message::Source`].
+    Source,
+    /// [`Message::Update`].
+    Update,
+    /// [`Message::Collect`].
+    Collect,
+    /// [`Message::Sums`].
+    Sums,
+    /// [`Message::StopSelecting`].
+    StopSelecting,
+    /// [`Message::Token`].
+    Token,
+    /// [`Message::Done`].
+    Done,
+}
+
+impl MessageKind {
+    /// Every kind, in the order of the bytes with which messages begin.
+    pub const ALL: [MessageKind; 7] = [
+        MessageKind::Source,
+        MessageKind::Update,
+        MessageKind::Collect,
+        MessageKind::Sums,
+        MessageKind::StopSelecting,
+        MessageKind::Token,
+        MessageKind::Done,
+    ];
+
+    /// The kind of an encoded message.
+    pub fn of(bytes: &[u8]) -> Option<MessageKind> {
+        MessageKind::ALL.get(usize::from(*bytes.first()?)).copied()
+    }
+
+    /// Its name, for people.
+    pub fn name(self) -> &'static str {
+        match self {
+            MessageKind::Source => "source",
+            MessageKind::Update => "update",
+            MessageKind::Collect => "collect",
+            MessageKind::Sums => "sums",
+            MessageKind::StopSelecting => "stop selecting",
+            MessageKind::Token => "token",
+            MessageKind::Done => "done",
+        }
+    }
 }
 
 /// Bytes that are not a message.
@@ -232,7 +290,21 @@ mod tests {
             Message::Token(false),
             Message::Done,
         ] {
-            assert_eq!(Message::decode(&message.encode()).unwrap(), message);
+            let bytes = message.encode();
+            assert_eq!(Message::decode(&bytes).unwrap(), message);
+            assert!(kinds_match(&message, MessageKind::of(&bytes).unwrap()));
+        }
+    }
+
+    fn kinds_match(message: &Message, kind: MessageKind) -> bool {
+        match message {
+            Message::Source(_) => kind == MessageKind::Source,
+            Message::Update(_) => kind == MessageKind::Update,
+            Message::Collect => kind == MessageKind::Collect,
+            Message::Sums(_) => kind == MessageKind::Sums,
+            Message::StopSelecting => kind == MessageKind::StopSelecting,
+            Message::Token(_) => kind == MessageKind::Token,
+            Message::Done => kind == MessageKind::Done,
         }
     }
 

@@ -74,7 +74,7 @@ pub enum Ending {
 pub struct NodeReport {
     /// Time in kernels.
     pub compute: Duration,
-    /// Time in which kernels waited for what was not in the processor's caches.
+    /// The part of it in which they waited for what was not in the processor's caches.
     pub missing: Duration,
     /// Time in sending and receiving, waits for room in buffers included.
     pub overhead: Duration,
@@ -144,10 +144,10 @@ impl Outcome {
         self.nodes.iter().map(|node| node.missing).sum()
     }
 
-    /// Time in kernels, misses included, as a fraction of all compute nodes' time.
+    /// Time in kernels as a fraction of all compute nodes' time.
     pub fn busy_fraction(&self) -> f64 {
         let all = self.time.as_seconds_f64() * self.nodes.len() as f64;
-        let busy: Duration = self.nodes.iter().map(|node| node.compute + node.missing).sum();
+        let busy: Duration = self.nodes.iter().map(|node| node.compute).sum();
         if all > 0.0 { busy.as_seconds_f64() / all } else { 0.0 }
     }
 }

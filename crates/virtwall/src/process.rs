@@ -6,6 +6,7 @@ use radiosity::Work;
 
 use crate::footprint::Footprint;
 use crate::message::Parcel;
+use crate::observer::Observer;
 
 /// A process on a node, simulated or real. Messages are bytes: what is not encoded does not travel.
 #[expect(async_fn_in_trait, reason = "a process stays on its own thread")]
@@ -44,4 +45,7 @@ pub trait Process {
 
     /// The time since the program began.
     fn now(&self) -> Time;
+
+    /// Tell whoever observes this run, if somebody does.
+    fn observe(&self, _tell: impl FnOnce(&mut dyn Observer)) {}
 }

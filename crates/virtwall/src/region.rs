@@ -1,5 +1,7 @@
 //! The environments of one processor, their light, and the choice among their patches.
 
+use std::collections::BTreeSet;
+use std::mem;
 use std::sync::Arc;
 
 use radiosity::{Greatest, Light, LocalEnvironment, Mask, Operation, Rgb, Shot, Work};
@@ -15,6 +17,12 @@ pub struct Region {
     /// Local patches below this value are not selected.
     threshold: f64,
     holdings: Vec<Holding>,
+    /// The value of the best patch of each holding.
+    bests: Greatest,
+    /// Holdings whose light has changed since the best patch was last looked for.
+    changed: BTreeSet<usize>,
+    /// Holdings whose light has changed since new best sources were last asked for.
+    untold: BTreeSet<usize>,
 }
 
 /// One environment and its light.
@@ -23,8 +31,6 @@ struct Holding {
     light: Light,
     /// The values of its patches.
     values: Greatest,
-    /// Whether the light has changed since the best patch was last looked for.
-    changed: bool,
     /// The best patch when last asked for new ones.
     best: Option<u32>,
     /// The sum of unshot power, W; none since the light last changed.
@@ -32,9 +38,8 @@ struct Holding {
 }
 
 impl Holding {
-    fn note_change(&mut self) {
-        self.changed = true;
-        self.unshot = None;
+    fn best_value(&self) -> f64 {
+        self.values.best().map_or(0.0, |(value, _)| value)
     }
 }
 
@@ -51,33 +56,44 @@ impl Region {
             let light = Light::new(&problem.space, geometry);
             let value = |patch: usize| value(selection, geometry, &light, patch as u32);
             let values = Greatest::new((0..light.unshot.len()).map(value));
-            Holding { environment, light, values, changed: true, best: None, unshot: None }
+            Holding { environment, light, values, best: None, unshot: None }
         };
-        let holdings = environments.map(hold).collect();
-        Region { problem: Arc::clone(problem), selection, threshold, holdings }
+        let holdings: Vec<Holding> = environments.map(hold).collect();
+        Region {
+            problem: Arc::clone(problem),
+            selection,
+            threshold,
+            bests: Greatest::new(holdings.iter().map(Holding::best_value)),
+            changed: (0..holdings.len()).collect(),
+            untold: (0..holdings.len()).collect(),
+            holdings,
+        }
+    }
+
+    fn note_change(&mut self, holding: usize) {
+        let held = &mut self.holdings[holding];
+        held.unshot = None;
+        self.bests.set(holding as u32, held.best_value());
+        self.changed.insert(holding);
+        self.untold.insert(holding);
     }
 
     /// The local patch with the greatest value at or above the threshold: its value, holding and
     /// number; of equals the lowest number.
     pub(crate) fn best_patch(&self) -> Option<(f64, usize, u32)> {
-        let mut best: Option<(f64, usize, u32)> = None;
-        for (holding, held) in self.holdings.iter().enumerate() {
-            let Some((value, patch)) = held.values.best() else { continue };
-            if value >= self.threshold && best.is_none_or(|(other, ..)| value > other) {
-                best = Some((value, holding, patch));
-            }
-        }
-        best
+        let (_, holding) = self.bests.best()?;
+        let (value, patch) = self.holdings[holding as usize].values.best()?;
+        (value >= self.threshold).then_some((value, holding as usize, patch))
     }
 
     /// The best patch of each environment, if it is at or above the threshold and another than the
     /// last time.
     pub(crate) fn new_best_sources(&mut self, mut tell: impl FnMut(Parcel)) {
-        for i in 0..self.holdings.len() {
+        for i in mem::take(&mut self.untold) {
             let held = &mut self.holdings[i];
             let best = held.values.best().filter(|&(value, _)| value >= self.threshold);
             let best = best.map(|(_, patch)| patch);
-            if let (true, Some(patch)) = (std::mem::replace(&mut held.best, best) != best, best) {
+            if let (true, Some(patch)) = (mem::replace(&mut held.best, best) != best, best) {
                 tell(self.parcel(i, patch));
             }
         }
@@ -85,7 +101,7 @@ impl Region {
 
     /// The environments that it is looked for in: those whose light has changed.
     pub(crate) fn changed(&self) -> impl Iterator<Item = u32> {
-        self.holdings.iter().filter(|held| held.changed).map(|held| held.environment)
+        self.changed.iter().map(|&holding| self.holdings[holding].environment)
     }
 
     /// The work of looking for it. The host looks it up; the virtual processor is charged for a linear
@@ -98,10 +114,8 @@ impl Region {
     pub(crate) fn scan(&mut self) -> Work {
         let mut work = Work::NONE;
         work.count(Operation::PatchScan, self.holdings.len() as u64);
-        for held in &mut self.holdings {
-            if std::mem::take(&mut held.changed) {
-                work.count(Operation::PatchScan, held.light.unshot.len() as u64);
-            }
+        for holding in mem::take(&mut self.changed) {
+            work.count(Operation::PatchScan, self.holdings[holding].light.unshot.len() as u64);
         }
         work
     }
@@ -112,7 +126,7 @@ impl Region {
         let held = &mut self.holdings[holding];
         held.light.unshot[patch as usize] = Rgb::ZERO;
         held.values.set(patch, 0.0);
-        held.note_change();
+        self.note_change(holding);
         parcel
     }
 
@@ -126,18 +140,20 @@ impl Region {
         Parcel { environment: *environment, source, mask, form_factor: 1.0 }
     }
 
-    /// Update the radiosities of the environment in which a source was shot.
-    pub(crate) fn receive(&mut self, parcel: &Parcel, shot: &Shot) {
+    /// Update the radiosities of the environment in which a source was shot. Returns the power that
+    /// its patches reflect of it, W.
+    pub(crate) fn receive(&mut self, parcel: &Parcel, shot: &Shot) -> Rgb {
         let place = self.holdings.binary_search_by_key(&parcel.environment, |h| h.environment);
-        let Ok(place) = place else { return };
+        let Ok(place) = place else { return Rgb::ZERO };
         let held = &mut self.holdings[place];
-        held.light.receive(&parcel.source, shot);
+        let reflected = held.light.receive(&parcel.source, shot);
         let geometry = &self.problem.environments[held.environment as usize];
         for &(patch, _) in &shot.hits {
             let value = value(self.selection, geometry, &held.light, patch);
             held.values.set(patch, value);
         }
-        held.note_change();
+        self.note_change(place);
+        reflected
     }
 
     /// By how much the radiosity of each patch that a shot hit has grown.

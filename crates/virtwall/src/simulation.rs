@@ -4,12 +4,16 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use desim::{Duration, Simulation, Time};
-use multicomputer::{Machine, Multicomputer, Network, Node, NodeMemory, Rank, Segment};
+use multicomputer::{
+    Machine, MachineObserver, Multicomputer, Network, Node, NodeMemory, Rank, Segment,
+};
 use radiosity::{Operation, Work};
 
 use crate::compute_node::compute_node;
 use crate::footprint::{Footprint, Thing};
+use crate::interpreter::Interpreter;
 use crate::message::Parcel;
+use crate::observer::Observer;
 use crate::outcome::{NodeReport, Outcome};
 use crate::process::Process;
 use crate::run::{Run, RunError};
@@ -42,6 +46,15 @@ struct SimulatedProcess {
     memory: Option<Rc<NodeMemory>>,
     /// What the processor's caches hold, if it has any.
     storage: Option<RefCell<Storage>>,
+    interpreter: Option<Rc<RefCell<Interpreter>>>,
+}
+
+impl SimulatedProcess {
+    /// Time that it has waited for what its caches missed.
+    fn missing(&self) -> Duration {
+        let seconds = self.storage.as_ref().map_or(0.0, |storage| storage.borrow().time());
+        Duration::from_seconds_f64(seconds)
+    }
 }
 
 impl Process for SimulatedProcess {
@@ -57,10 +70,9 @@ impl Process for SimulatedProcess {
 
     async fn fetch(&self, source: &Parcel) {
         if let Some(storage) = &self.storage {
-            let before = storage.borrow().time();
+            let before = self.missing();
             storage.borrow_mut().shoot(source);
-            let span = storage.borrow().time() - before;
-            self.node.miss(Duration::from_seconds_f64(span)).await;
+            self.node.compute(self.missing() - before).await;
         }
     }
 
@@ -79,6 +91,9 @@ impl Process for SimulatedProcess {
     }
 
     async fn send(&self, to: Rank, message: Vec<u8>) {
+        if let Some(interpreter) = &self.interpreter {
+            interpreter.borrow_mut().sends(self.rank(), &message);
+        }
         self.node.send(to, message.len() as u64, message).await;
     }
 
@@ -97,6 +112,12 @@ impl Process for SimulatedProcess {
     fn now(&self) -> Time {
         self.node.now()
     }
+
+    fn observe(&self, tell: impl FnOnce(&mut dyn Observer)) {
+        if let Some(interpreter) = &self.interpreter {
+            tell(&mut *interpreter.borrow_mut());
+        }
+    }
 }
 
 /// Run on a simulated machine.
@@ -110,6 +131,16 @@ pub fn simulate_over(
     machine: &Machine,
     network: Box<dyn Network>,
 ) -> Result<Outcome, RunError> {
+    simulate_observed(run, machine, network, None)
+}
+
+/// The same, with all that happens told to `observer`.
+pub fn simulate_observed(
+    run: &Run,
+    machine: &Machine,
+    network: Box<dyn Network>,
+    observer: Option<Rc<RefCell<dyn Observer>>>,
+) -> Result<Outcome, RunError> {
     let (nodes, collection) = run.prepare()?;
     let prices = Rc::new(Prices::of(machine)?);
     let memory = machine.node_memory.as_ref();
@@ -120,13 +151,20 @@ pub fn simulate_over(
     let simulation = Simulation::new();
     let handle = simulation.handle();
     let multicomputer = Multicomputer::with_network(&handle, machine, run.processors, network)?;
-    let caches = &machine.processor.caches;
-    let storage = || Storage::new(&run.problem, Layout::PLAIN_C, caches);
+    let caches = Some(&machine.processor.caches).filter(|caches| !caches.is_empty());
+    let storage = |caches| RefCell::new(Storage::new(&run.problem, Layout::PLAIN_C, caches));
+    let interpreter = observer.map(|observer| {
+        let interpreter = Rc::new(RefCell::new(Interpreter::new(observer, run.processors + 1)));
+        let observer: Rc<RefCell<dyn MachineObserver<Vec<u8>>>> = interpreter.clone();
+        multicomputer.observe(&observer);
+        interpreter
+    });
     let process = |rank| SimulatedProcess {
         node: multicomputer.node(rank),
         prices: Rc::clone(&prices),
         memory: memory.clone(),
-        storage: (!caches.is_empty()).then(|| RefCell::new(storage())),
+        storage: caches.map(|caches| storage(caches)),
+        interpreter: interpreter.clone(),
     };
     let finished = Rc::new(RefCell::new(Vec::new()));
     for (rank, node) in nodes.into_iter().enumerate() {
@@ -134,7 +172,8 @@ pub fn simulate_over(
         handle.spawn(format!("compute node {rank}"), async move {
             let node = compute_node(&process, node).await;
             process.node.finish();
-            finished.borrow_mut().push((process.rank(), process.now(), node));
+            let (rank, now, missing) = (process.rank(), process.now(), process.missing());
+            finished.borrow_mut().push((rank, now, node, missing));
         });
     }
     let service = process(run.processors);
@@ -145,12 +184,13 @@ pub fn simulate_over(
     simulation.run()?;
     let mut finished = finished.take();
     finished.sort_unstable_by_key(|(rank, ..)| *rank);
-    let time = finished.iter().map(|(_, time, _)| *time).max().unwrap_or(Time::ZERO);
-    let nodes: Vec<_> = finished.into_iter().map(|(_, _, node)| node).collect();
+    let time = finished.iter().map(|(_, time, ..)| *time).max().unwrap_or(Time::ZERO);
+    let (nodes, missing): (Vec<_>, Vec<_>) =
+        finished.into_iter().map(|(_, _, node, missing)| (node, missing)).unzip();
     let reports =
-        multicomputer.accounts().into_iter().take(nodes.len()).map(|account| NodeReport {
+        multicomputer.accounts().into_iter().zip(missing).map(|(account, missing)| NodeReport {
             compute: account.compute,
-            missing: account.missing,
+            missing,
             overhead: account.overhead(),
             paging: account.paging,
             memory_high_water: account.memory_high_water,

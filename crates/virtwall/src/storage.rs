@@ -28,8 +28,8 @@ pub struct Layout {
     pub slot: u64,
     /// A patch, what an update touches of it, and its energy and form factor.
     pub patch: [u64; 3],
-    /// What the innermost loops have in constant use: frames, ray, source.
-    pub hot: u64,
+    /// What each ray, each cell and each polygon touches of frames and variables.
+    pub frames: [u64; 3],
     /// Between an array and the next: an allocator's own.
     pub gap: u64,
     /// Whether each environment keeps its cells and polygons by itself, as it does on a machine without
@@ -40,7 +40,7 @@ pub struct Layout {
 impl Layout {
     /// A plain C program in double precision.
     ///
-    /// Choice C26: the paper's is unpublished. These are the records whose sizes
+    /// Choice C17: the paper's is unpublished. These are the records whose sizes
     /// `machines/paragon-gp16.json` gives and whose misses the prices of the Paragon's operations hold: of
     /// a polygon's 264 B its plane, 2.5 of its corners and its axes, of a patch's 300 B, aligned, its
     /// form factor, energies, reflectance and area.
@@ -53,7 +53,7 @@ impl Layout {
         axes: [64, 64],
         slot: 4,
         patch: [304, 96, 8],
-        hot: 512,
+        frames: [512, 144, 72],
         gap: 16,
         by_environment: true,
     };
@@ -64,6 +64,7 @@ pub struct Storage {
     problem: Arc<Problem>,
     layout: Layout,
     caches: Caches,
+    frames: u64,
     directions: u64,
     masks: u64,
     mask_bytes: u64,
@@ -107,7 +108,8 @@ impl Storage {
         let mut room = Room { next: 0, gap: layout.gap };
         let mut storage = Storage {
             problem: Arc::clone(problem),
-            caches: Caches::new(levels, layout.hot),
+            caches: Caches::new(levels),
+            frames: room.take(1, layout.frames[0]),
             directions: room.take(problem.hemisphere.directions.len(), layout.direction),
             masks: room.take(environments.len(), mask_bytes),
             mask_bytes,
@@ -190,25 +192,31 @@ impl Storage {
         let mut touch = |array: u64, number: u32, [bytes, touched]: [u64; 2]| {
             caches.touch(array + u64::from(number) * bytes, touched);
         };
-        let number = |polygon: u32| polygons.numbers[polygon as usize];
+        let place = |polygon: u32| polygons.numbers[polygon as usize];
+        let [ray, cell, polygon] = layout.frames;
         match record {
             Record::Direction(pixel) => {
+                touch(self.frames, 0, [0, ray]);
                 touch(mask, pixel / 64, [8, 8]);
                 touch(self.directions, pixel, [layout.direction; 2]);
             }
             Record::Cell { place, polygons } => {
-                let [cell, list] = self.cells[place as usize];
-                touch(cell, 0, layout.cell);
+                let [here, list] = self.cells[place as usize];
+                touch(self.frames, 0, [0, cell]);
+                touch(here, 0, layout.cell);
                 if polygons > 0 {
                     touch(list, 0, [0, u64::from(polygons) * layout.entry]);
                 }
             }
-            Record::Plane(polygon) => touch(polygons.planes, number(polygon), layout.plane),
-            Record::Edges(polygon) => touch(polygons.edges, number(polygon), layout.edges),
+            Record::Plane(number) => {
+                touch(self.frames, 0, [0, polygon]);
+                touch(polygons.planes, place(number), layout.plane);
+            }
+            Record::Edges(polygon) => touch(polygons.edges, place(polygon), layout.edges),
             Record::Hit { polygon, patch } => {
                 let ([slots, patches], [bytes, _, energy]) =
                     (self.patches[environment], layout.patch);
-                touch(polygons.axes, number(polygon), layout.axes);
+                touch(polygons.axes, place(polygon), layout.axes);
                 touch(slots, patch, [layout.slot; 2]);
                 touch(patches, patch, [bytes, energy]);
             }

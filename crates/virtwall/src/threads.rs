@@ -12,6 +12,7 @@ use multicomputer::Rank;
 use radiosity::Work;
 
 use crate::compute_node::compute_node;
+use crate::message::Message;
 use crate::outcome::{NodeReport, Outcome};
 use crate::process::Process;
 use crate::run::{Run, RunError};
@@ -25,6 +26,16 @@ struct ThreadProcess {
     /// Received by a wait and not yet read.
     waiting: RefCell<Vec<Vec<u8>>>,
     start: Instant,
+}
+
+/// A process that panics sends no more: nobody is to wait for it.
+impl Drop for ThreadProcess {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            // Those that have ended already need not hear of it.
+            self.to.iter().for_each(|to| _ = to.send(Message::Done.encode()));
+        }
+    }
 }
 
 impl Process for ThreadProcess {
@@ -98,9 +109,11 @@ pub fn run_on_threads(run: &Run) -> Result<Outcome, RunError> {
             .map(|(process, node)| scope.spawn(move || finish(compute_node(&process, node))))
             .collect();
         let joined = threads.into_iter().map(|thread| thread.join().ok().flatten());
-        joined.collect::<Option<Vec<_>>>()
+        // All are waited for, also after one that failed.
+        joined.collect::<Vec<Option<_>>>()
     });
-    let nodes = finished.ok_or(RunError::Thread)?;
+    let nodes: Option<Vec<_>> = finished.into_iter().collect();
+    let nodes = nodes.ok_or(RunError::Thread)?;
     let time = Time::ZERO + Duration::from_seconds_f64(start.elapsed().as_secs_f64());
     let reports = vec![NodeReport::default(); nodes.len()];
     Ok(Outcome::of(time, &nodes, reports))

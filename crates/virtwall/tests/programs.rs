@@ -5,6 +5,7 @@
 mod common;
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use common::{grey, paragon, problem, rules, same, scene, sides, two_rooms_cut};
 use desim::{Duration, Time};
@@ -82,6 +83,16 @@ fn threads_and_simulation_find_the_same_light() {
     if threads.ending == Ending::Agreed {
         assert!(difference(&simulated, &threads) < 2e-3, "{}", difference(&simulated, &threads));
     }
+}
+
+/// Nobody waits for a node whose thread panicked.
+#[test]
+fn a_thread_that_panics_ends_the_run() {
+    let shots = AtomicU64::new(0);
+    let on_shot = move || assert!(shots.fetch_add(1, Ordering::Relaxed) < 10, "as it should");
+    let problem = two_rooms_cut([4, 2, 1]);
+    let run = Run { on_shot: Arc::new(on_shot), ..run(&problem, 4, rules()) };
+    assert!(matches!(run_on_threads(&run), Err(RunError::Thread)));
 }
 
 /// A global threshold stops selection through the service node.

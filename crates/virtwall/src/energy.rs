@@ -1,0 +1,33 @@
+//! How the emitted energy moves while a run goes on.
+
+use radiosity::{Rgb, Shot};
+
+use crate::message::Parcel;
+use crate::outcome::EnergyLedger;
+
+/// A source that has been selected and not been shot yet is in transit, too.
+impl EnergyLedger {
+    /// Before the first shot: all is unshot.
+    pub fn at_first(emitted: Rgb) -> EnergyLedger {
+        EnergyLedger { emitted, unshot: emitted, ..EnergyLedger::default() }
+    }
+
+    /// A source was selected: what a patch has not shot yet it gives away.
+    pub fn selected(&mut self, source: &Parcel) {
+        if source.is_local() {
+            self.unshot -= source.source.power;
+            self.in_transit += source.source.power;
+        }
+    }
+
+    /// A source was shot, and patches reflect so much of it, W.
+    pub fn shot(&mut self, source: &Parcel, shot: &Shot, reflected: Rgb) {
+        let power = source.source.power;
+        let fallen: f64 = shot.hits.iter().map(|(_, form_factor)| form_factor).sum();
+        let onward: f64 = shot.outgoing.iter().flatten().map(|out| out.form_factor).sum();
+        self.absorbed += power * (fallen + shot.backs) - reflected;
+        self.escaped += power * shot.escaped;
+        self.in_transit += power * (onward - source.form_factor);
+        self.unshot += reflected;
+    }
+}
