@@ -22,7 +22,6 @@ const NEAR: f64 = 0.15;
 #[derive(Args)]
 pub struct Arguments {
     /// Name of a machine, or path to a machine file
-    #[arg(long, value_name = "NAME", default_value = "paragon-xps")]
     machine: String,
     /// Bytes a message
     #[arg(long, value_name = "N", default_value_t = 4_096, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]

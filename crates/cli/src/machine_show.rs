@@ -27,9 +27,16 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     Ok(text)
 }
 
-/// All numbers under a value of the file, each with its provenance and its source.
+/// All numbers under a value of the file, each with its provenance and its source, and the words that
+/// choose between models.
 fn numbers(text: &mut String, place: &str, value: &Value) {
-    let Value::Object(fields) = value else { return };
+    let Value::Object(fields) = value else {
+        // The words of the file itself are its title, and what it is made of.
+        if let Some(word) = value.as_str().filter(|_| place.contains('.')) {
+            let _ = writeln!(text, "{place} = {word}");
+        }
+        return;
+    };
     if let Some(provenance) = fields.get("provenance").and_then(Value::as_str) {
         let word = |field: &str| match fields.get(field) {
             Some(Value::String(text)) => text.clone(),

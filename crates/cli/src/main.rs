@@ -13,6 +13,7 @@ mod machine_show;
 mod make_reference;
 mod plot;
 mod progress;
+mod render;
 mod run;
 mod scene_make;
 mod scene_show;
@@ -47,6 +48,8 @@ enum Command {
     /// Look at machines, and try their networks.
     #[command(subcommand)]
     Machine(MachineCommand),
+    /// Draw a scene, or any instant of a run, as a picture, an animation or a glTF file.
+    Render(render::Arguments),
     /// Find the form factors between the objects of any scene.
     Formfactors(formfactors::Arguments),
     /// Solve a scene as exactly as can be, and store the answer for others to be held against.
@@ -95,6 +98,7 @@ fn main() -> ExitCode {
         Command::Machine(MachineCommand::Bench(arguments)) => machine_bench::run(&arguments),
         Command::Machine(MachineCommand::Compare(arguments)) => machine_compare::run(&arguments),
         Command::Machine(MachineCommand::Replay(arguments)) => machine_replay::run(&arguments),
+        Command::Render(arguments) => render::run(&arguments),
         Command::Formfactors(arguments) => formfactors::run(&arguments),
         Command::Reference(arguments) => make_reference::run(&arguments),
         Command::Bench(BenchCommand::Rays(arguments)) => bench_rays::run(&arguments),

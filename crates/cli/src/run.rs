@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
-use lab::{Endings, HostClock, On, Options, Plan, Results, ShotFiles};
+use lab::{Endings, HostClock, On, Options, Plan, Results, ShotFiles, Traces};
 use multicomputer::quantity::{Dimension, QuantityError, parse};
 use reference::parallel;
+use traces::{Format, Sample};
 
 use crate::exit::Exit;
 use crate::progress::Progress;
@@ -46,6 +47,16 @@ pub struct Arguments {
     /// time. It can be emptied whenever nothing runs
     #[arg(long, value_name = "DIR")]
     keep_shots: Option<PathBuf>,
+    /// Write a trace of every run into this folder, a file a run, in virtual time
+    #[arg(long, value_name = "DIR")]
+    trace: Option<PathBuf>,
+    /// What the traces are to be read by
+    #[arg(long, value_enum, requires = "trace", default_value = "perfetto")]
+    trace_format: FormatArgument,
+    /// Show one message in N in the traces, and all that nodes compute
+    #[arg(long, value_name = "N", requires = "trace", default_value = "1")]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..))]
+    trace_sample: u32,
     /// Print nothing but what went wrong: no progress, no table
     #[arg(long, short)]
     quiet: bool,
@@ -56,12 +67,20 @@ fn size(text: &str) -> Result<usize, QuantityError> {
     parse(text, Dimension::Bytes).map(|bytes| bytes as usize)
 }
 
-#[derive(Clone, Copy, ValueEnum)]
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum OnArgument {
     /// The simulated machine: virtual time, the same on every host
     Simulation,
     /// Threads of this host: the same light, no virtual time
     Threads,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum FormatArgument {
+    /// ui.perfetto.dev and trace_processor
+    Perfetto,
+    /// pj_dump and ViTE: text
+    Paje,
 }
 
 /// Runs the experiment; returns the table of its results.
@@ -74,6 +93,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let default = || PathBuf::from("results").join(&plan.name);
     let out = arguments.out.clone().unwrap_or_else(default);
     let place = out.display();
+    let traces = traces(arguments)?;
     let shot_files = arguments.keep_shots.as_deref().map(open_shot_files).transpose()?;
     std::fs::create_dir_all(&out)
         .map_err(|error| Exit::bad_input(format!("{place}: no folder for results: {error}")))?;
@@ -83,7 +103,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         OnArgument::Threads => On::Threads,
     };
     let memory = arguments.memory.unwrap_or_else(lab::half_of_free_memory);
-    let options = Options { threads, fresh: arguments.fresh, on, memory, shot_files };
+    let options = Options { threads, fresh: arguments.fresh, on, memory, shot_files, traces };
     let progress = Arc::new(Progress::new(Arc::clone(&plan), arguments.quiet));
     let watch = {
         let progress = Arc::clone(&progress);
@@ -111,6 +131,24 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
             Err(Exit { code: 1, output, message })
         }
     }
+}
+
+/// The traces that are asked for, and their folder made.
+fn traces(arguments: &Arguments) -> Result<Option<Traces>, Exit> {
+    let Some(folder) = arguments.trace.clone() else { return Ok(None) };
+    if arguments.on == OnArgument::Threads {
+        let message =
+            "--trace: found --on threads; expected the simulation, which has virtual time";
+        return Err(Exit::bad_input(message));
+    }
+    std::fs::create_dir_all(&folder).map_err(|error| {
+        Exit::bad_input(format!("{}: no folder for traces: {error}", folder.display()))
+    })?;
+    let format = match arguments.trace_format {
+        FormatArgument::Perfetto => Format::Perfetto,
+        FormatArgument::Paje => Format::Paje,
+    };
+    Ok(Some(Traces { folder, format, sample: Sample::one_in(arguments.trace_sample) }))
 }
 
 fn open_shot_files(folder: &Path) -> Result<ShotFiles, Exit> {

@@ -202,13 +202,64 @@ fn every_machine_is_shown_and_measured() {
 
 #[test]
 fn worms_are_compared_with_flits() {
-    let small = ["machine", "compare", "--bytes", "64", "--messages", "8"];
+    let small = ["machine", "compare", "paragon-xps", "--bytes", "64", "--messages", "8"];
     let (code, table, stderr) = virtwall(&root(), &small);
     assert_eq!((code, stderr.as_str()), (0, ""));
     for pattern in ["uniform", "neighbour", "transpose", "hot-spot", "all-to-one"] {
         assert!(table.contains(pattern), "{table}");
     }
     assert!(table.contains("Below saturation mean latencies differ by "), "{table}");
+}
+
+#[test]
+fn what_the_display_and_the_start_up_do_stands_in_the_results() {
+    let text = SWEEP
+        .replace("[64, 256]", "64")
+        .replace("\"title\"", r#""machine": ["paragon-xps", "paragon-display"], "title""#);
+    let project = Project::new(&text);
+    let machine = fs::read_to_string(root().join("machines/paragon-display.json")).unwrap();
+    project.write("machines/paragon-display.json", &machine);
+    let run = |settings: &[&str]| {
+        let settings = settings.iter().flat_map(|setting| ["--set", setting]);
+        let arguments: Vec<&str> =
+            ["run", "experiments/x.json"].into_iter().chain(settings).collect();
+        virtwall(&project.path(""), &arguments)
+    };
+    assert_eq!(run(&[]).0, 0);
+    let beside = rows(&project);
+    let number = |row: &[(String, String)], name: &str| cell(row, name).parse::<f64>().unwrap();
+    // Nothing stands beside a machine that says nothing of them; nothing else differs.
+    assert_eq!([cell(&beside[0], "display_lag_s"), cell(&beside[0], "start_up_s")], ["", ""]);
+    let [without, with] = [&beside[2], &beside[5]];
+    assert_eq!(cell(with, "time_s"), cell(without, "time_s"));
+    assert_eq!(cell(with, "updates_shown"), cell(with, "update_messages"));
+    assert_eq!(number(with, "updates_dropped"), 0.0);
+    assert!(number(with, "display_lag_s") > 0.0 && number(with, "service_busy_fraction") > 0.0);
+    // Four nodes read some hundred bytes, one after the other.
+    let [all, reading, waited] =
+        ["start_up_s", "reading_s", "disk_wait_s"].map(|c| number(with, c));
+    assert!(
+        (waited * 4.0 / 3.0 - reading).abs() < 1e-5 && reading < all,
+        "{waited} {reading} {all}"
+    );
+
+    let drowned = ["machine=paragon-display", r#"display.update_time="1 s""#];
+    let drops = [r#"display.when_full="drop_newest""#, r#"display.service_buffers="1 B""#];
+    assert_eq!(run(&[&drowned[..], &drops].concat()).0, 0);
+    assert!(rows(&project).iter().any(|row| number(row, "updates_dropped") > 0.0));
+
+    assert_eq!(run(&["machine=paragon-display", "count_start_up=true"]).0, 0);
+    let counted = &rows(&project)[2];
+    let computing = number(counted, "time_s") - number(counted, "start_up_s");
+    assert!((computing - number(with, "time_s")).abs() < 2e-6);
+
+    let lacks = |setting: &str, expected: &str| {
+        let (code, _, stderr) = run(&["machine=paragon-xps", setting]);
+        assert_eq!(code, 2);
+        assert!(stderr.contains(expected), "{stderr}");
+    };
+    lacks(r#"display.update_time="1 s""#, "expected a machine whose file has \"display\"");
+    lacks("count_start_up=true", "expected a machine whose file has \"start_up\"");
 }
 
 #[test]

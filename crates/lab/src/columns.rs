@@ -2,9 +2,12 @@
 
 use serde_json::Value;
 
+use crate::display;
 use crate::engine;
+use crate::errors;
 use crate::figures::Figures;
 use crate::message_layer;
+use crate::start_up;
 use crate::sweep::Axis;
 
 /// Two of the first columns, against whose ones runs are held.
@@ -70,11 +73,8 @@ const OF_THE_NETWORK: [&str; 5] =
 /// The columns after these, where nodes have memory.
 const OF_MEMORY: [&str; 2] = ["memory_high_water", "paging_s"];
 
-/// The column after these, where processors have caches.
-const OF_CACHES: [&str; 1] = ["missing_s"];
-
-/// The column after these, where the number of local environments is swept.
-const OF_ENVIRONMENTS: [&str; 1] = ["gain"];
+/// The columns after these, where processors have caches: what they cost, and Figure 11's gain.
+const OF_CACHES: [&str; 2] = ["missing_s", "gain"];
 
 /// What columns there are besides those of every sweep.
 #[derive(Clone, Copy, Debug)]
@@ -87,8 +87,12 @@ pub struct Also {
     pub message_layer: bool,
     /// Those of the processors' caches.
     pub caches: bool,
-    /// Those that compare numbers of local environments.
-    pub environments: bool,
+    /// Those of errors.
+    pub errors: bool,
+    /// Those of the display.
+    pub display: bool,
+    /// Those of the start-up.
+    pub start_up: bool,
 }
 
 impl Also {
@@ -97,8 +101,11 @@ impl Also {
         let memory = OF_MEMORY.into_iter().filter(move |_| self.memory);
         let layer = message_layer::COLUMNS.into_iter().filter(move |_| self.message_layer);
         let caches = OF_CACHES.into_iter().filter(move |_| self.caches);
-        let environments = OF_ENVIRONMENTS.into_iter().filter(move |_| self.environments);
-        network.chain(memory).chain(layer).chain(caches).chain(environments)
+        let errors = errors::COLUMNS.into_iter().filter(move |_| self.errors);
+        let display = display::COLUMNS.into_iter().filter(move |_| self.display);
+        let start_up = start_up::COLUMNS.into_iter().filter(move |_| self.start_up);
+        let machine = network.chain(memory).chain(layer).chain(display).chain(start_up);
+        machine.chain(errors).chain(caches)
     }
 }
 
@@ -146,7 +153,13 @@ pub fn figure(figures: &Figures, column: &str) -> Option<String> {
             let counts = figures.work.iter().map(|(name, count)| format!("{name}={count}"));
             counts.collect::<Vec<_>>().join(" ")
         }
-        _ => return figures.message_layer.and_then(|layer| layer.cell(column)),
+        _ => {
+            let layer = figures.message_layer.and_then(|layer| layer.cell(column));
+            let display = || figures.display.and_then(|display| display.cell(column));
+            let start_up = || figures.start_up.and_then(|start_up| start_up.cell(column));
+            let errors = || figures.errors.and_then(|errors| errors.cell(column));
+            return layer.or_else(display).or_else(start_up).or_else(errors);
+        }
     })
 }
 

@@ -1,23 +1,31 @@
 //! The one door to the simulator: beyond it nothing here knows how a kernel or a link works.
 
+use std::borrow::Cow;
+use std::cell::RefCell;
+use std::rc::Rc;
 use std::sync::Arc;
 
+use desim::Time;
 use multicomputer::Machine;
 use radiosity::{Hemisphere, HemisphereKind, Operation, PatchSize, Rgb};
 use serde::Serialize;
 use virtwall::{
-    Ending, KeptShots, Outcome, Problem, ProblemError, ProblemOptions, Rules, Run, Thing,
+    Ending, Instant, KeptShots, Outcome, Problem, ProblemError, ProblemOptions, Rules, Run,
+    RunError, SharedObserver, Step, Thing,
 };
 
+use crate::display::DisplayFigures;
 use crate::experiment::{self as fields, Experiment};
 use crate::fault::Fault;
 use crate::figures::{Energy, Figures};
 use crate::find::Found;
+use crate::knobs;
 use crate::machine_file::MachineFile;
 use crate::message_layer::{self, MessageLayerFigures};
 use crate::network;
 use crate::node_memory;
 use crate::settings::{Settings, WrongField};
+use crate::start_up::StartUpFigures;
 
 /// What the programs run on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
@@ -52,15 +60,20 @@ pub fn load_machine(found: &Found) -> Result<MachineFile, Fault> {
     }
 }
 
-/// Makes sure that a machine with memory gives everything a size.
+/// Makes sure that a machine with memory gives everything a size, and one with a start-up every step a
+/// price.
 fn sized(file: MachineFile, found: &Found) -> Result<MachineFile, Fault> {
-    match file.machine.node_memory.as_ref().and_then(Thing::without_size) {
-        None => Ok(file),
-        Some(thing) => {
-            let message = format!("no size of \"{}\"; expected one of each", thing.name());
-            Err(Fault::of_file(found.path.display(), message))
+    let machine = &file.machine;
+    let thing = machine.node_memory.as_ref().and_then(Thing::without_size);
+    let step = machine.start_up.as_ref().and_then(Step::without_price);
+    let message = match (thing, step) {
+        (Some(thing), _) => format!("no size of \"{}\"; expected one of each", thing.name()),
+        (_, Some(step)) => {
+            format!("start_up.operations: no price of \"{}\"; expected one of each", step.name())
         }
-    }
+        (None, None) => return Ok(file),
+    };
+    Err(Fault::of_file(found.path.display(), message))
 }
 
 /// Meshes and cuts a scene.
@@ -109,7 +122,8 @@ pub fn run(
     }
 }
 
-/// Runs a point's run to the end, on the simulated `machine` or on threads.
+/// Runs a point's run to the end, on the simulated `machine`, where it can be observed, or on threads:
+/// its figures, and its radiosities by environment.
 ///
 /// # Errors
 /// Why the run did not end.
@@ -118,18 +132,86 @@ pub fn carry_out(
     point: &Experiment,
     on: On,
     machine: &Machine,
-) -> Result<Figures, String> {
-    let outcome = match on {
-        On::Simulation => network::simulate(run, &point.node_memory.laid_over(machine), point),
-        On::Threads => virtwall::run_on_threads(run).map(|outcome| (outcome, None)),
+    scene_bytes: u64,
+    observer: Option<SharedObserver>,
+) -> Result<(Figures, Vec<Vec<Rgb>>), String> {
+    let machine = &*changed(machine, point);
+    let simulated = || {
+        let start_up = virtwall::start_up(run, machine, scene_bytes)?;
+        let (outcome, network) = network::simulate(run, machine, point, observer)?;
+        Ok((outcome, network, start_up))
     };
-    let (outcome, network) = outcome.map_err(|error| error.to_string())?;
+    let outcome = match on {
+        On::Simulation => simulated(),
+        On::Threads => virtwall::run_on_threads(run).map(|outcome| (outcome, None, None)),
+    };
+    let (outcome, network, start_up) = outcome.map_err(|error: RunError| error.to_string())?;
+    let start_up = start_up.as_ref().map(StartUpFigures::of);
     let tells = on == On::Simulation && message_layer::tells(machine);
     let message_layer = tells.then(|| MessageLayerFigures::of(&outcome.layer()));
     let caches = on == On::Simulation && !machine.processor.caches.is_empty();
     let missing_s = caches.then(|| outcome.missing().as_seconds_f64());
     let figures = figures(&run.problem, &outcome, on == On::Simulation);
-    Ok(Figures { network, message_layer, missing_s, ..figures })
+    let counted = start_up.filter(|_| point.count_start_up).map_or(0.0, |s| s.start_up_s);
+    let time_s = figures.time_s.map(|time_s| time_s + counted);
+    let figures = Figures { time_s, network, message_layer, start_up, missing_s, ..figures };
+    Ok((figures, outcome.radiosity))
+}
+
+/// The machine as a point of an experiment has it.
+fn changed<'a>(machine: &'a Machine, point: &Experiment) -> Cow<'a, Machine> {
+    if point.node_memory.is_empty() && point.display.is_empty() {
+        return Cow::Borrowed(machine);
+    }
+    let mut machine = machine.clone();
+    machine.node_memory.iter_mut().for_each(|memory| point.node_memory.lay_over(memory));
+    machine.display.iter_mut().for_each(|display| point.display.lay_over(display));
+    Cow::Owned(machine)
+}
+
+/// Radiosity in W/m², by environment and patch.
+pub type Light = Vec<Vec<Rgb>>;
+
+/// The light of a simulated run at each of `times`, in rising order; and the run's end, after which
+/// there is no other light.
+///
+/// # Errors
+/// Why the run did not end.
+pub fn light_at(
+    run: &Run,
+    point: &Experiment,
+    machine: &Machine,
+    times: &[Time],
+) -> Result<(Vec<Light>, Time), String> {
+    let machine = changed(machine, point);
+    let light = Rc::new(RefCell::new(Vec::new()));
+    let visit = {
+        let light = Rc::clone(&light);
+        move |instant: Instant| {
+            light.borrow_mut().push(instant.radiosity().map(Iterator::collect).collect());
+        }
+    };
+    let outcome = network::rung(run, &machine, point)
+        .and_then(|rung| Ok(machine.network_on(rung)?))
+        .and_then(|network| virtwall::visit_instants(run, &machine, network, times, visit))
+        .map_err(|error| error.to_string())?;
+    Ok((light.take(), outcome.time))
+}
+
+/// Shots after which a scene counts as solved.
+const MOST_SHOTS: u64 = 5_000;
+
+/// The light in a problem of one environment when less than a part of it is unshot, or after so many
+/// shots; and the part that is unshot.
+pub fn solved(problem: &Problem, unshot: f64) -> (Light, f64) {
+    let whole = &problem.environments[0];
+    let (light, _) =
+        radiosity::solve(&problem.space, whole, &problem.hemisphere, unshot, MOST_SHOTS);
+    let patches = 0..whole.patches.len() as u32;
+    let radiosity = patches.map(|patch| light.radiosity(whole, patch)).collect();
+    let emitted = problem.emitted_power().element_sum();
+    let left = light.unshot_power().element_sum();
+    (vec![radiosity], if emitted > 0.0 { left / emitted } else { 0.0 })
 }
 
 /// The outcome's figures; times only if they are virtual.
@@ -164,6 +246,9 @@ fn figures(problem: &Problem, outcome: &Outcome, virtual_time: bool) -> Figures 
         network: None,
         memory: node_memory::figures(outcome),
         message_layer: None,
+        errors: None,
+        display: outcome.display.as_ref().map(DisplayFigures::of),
+        start_up: None,
         missing_s: None,
         work: outcome.work.counts().map(|(op, n)| (op.name().to_owned(), n)).collect(),
     }
@@ -190,5 +275,6 @@ fn rules(point: &Experiment) -> Rules {
             fields::Mapping::Cyclic => virtwall::Mapping::Cyclic,
             fields::Mapping::Random => virtwall::Mapping::Random(point.seed),
         },
+        shooting: knobs::shooting(point),
     }
 }

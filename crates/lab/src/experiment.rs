@@ -5,6 +5,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
+use crate::display::DisplayFields;
+use crate::knobs::SplitFields;
 use crate::node_memory::NodeMemoryFields;
 use crate::quantity::{Fraction, Length, Period, Triple};
 use crate::schema;
@@ -50,6 +52,16 @@ pub struct Experiment {
     /// such a machine have the columns memory_high_water, the bytes of the fullest node, and paging_s.
     #[serde(default, skip_serializing_if = "NodeMemoryFields::is_empty")]
     pub node_memory: NodeMemoryFields,
+    /// The display, in place of what the machine's file says; its file must model one. Results on such a
+    /// machine have the columns display_lag_s, updates_shown, updates_dropped, waiting_for_display_s,
+    /// service_busy_fraction, ethernet_busy_fraction and display_busy_fraction. Paper: Figure 6.
+    #[serde(default, skip_serializing_if = "DisplayFields::is_empty")]
+    pub display: DisplayFields,
+    /// Whether time_s begins with the start-up, in place of the end of initialisation; the machine's file
+    /// must model it. Results on such a machine have the columns start_up_s, reading_s and disk_wait_s.
+    /// Paper: §4.2.1.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub count_start_up: bool,
     /// Compute nodes used, at most as many as there are local environments. Paper: Table 1.
     #[schemars(range(min = 1))]
     pub processors: u32,
@@ -79,6 +91,23 @@ pub struct Experiment {
     /// The hemisphere of rays over a source.
     #[serde(default)]
     pub hemisphere: Hemisphere,
+    /// Into how many sources a patch is cut, where things near it deserve that.
+    #[serde(default, skip_serializing_if = "SplitFields::is_none")]
+    pub source_split: SplitFields,
+    /// How much a patch that does not emit shoots, over what it has not shot: what is still to come
+    /// is shot in advance, from 1 to less than 2.
+    #[serde(default = "one", skip_serializing_if = "is_one")]
+    pub overshoot: f64,
+    /// Whether radiosities are told with an estimate of what the light that was not shot would add,
+    /// the ambient term. It changes nothing but their errors.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub ambient: bool,
+    /// What radiosities are held against: "dense", the dense solution of the run's own mesh; "stored",
+    /// results/references/<scene>.json as `virtwall reference` stores it; the name of another one
+    /// there, or a path. With it come the columns error_l2, error_max and reference_error, all
+    /// relative to the root mean square of what is reflected.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reference: Option<String>,
     /// Which source a node shoots next. Choice C4: §3.2 says the most unshot energy, §4.2.2 the
     /// greatest delta-radiosity.
     #[serde(default)]
@@ -140,6 +169,11 @@ pub struct Hemisphere {
     /// and photometry.
     #[schemars(range(min = 1))]
     pub pixels: u32,
+    /// Neighbouring pixels that share a bit of the masks that travel: 1, 2, 4 and so on to 64. All
+    /// pixels are cast, messages are shorter, and where pixels of a bit disagree their majority
+    /// decides.
+    #[serde(skip_serializing_if = "is_single")]
+    pub pixels_a_bit: u32,
     /// Whether the directions are turned about the normal by an angle of each source's own, so
     /// that no ray runs along a plane by habit.
     pub rotated: bool,
@@ -147,7 +181,12 @@ pub struct Hemisphere {
 
 impl Default for Hemisphere {
     fn default() -> Hemisphere {
-        Hemisphere { directions: Directions::Fibonacci, pixels: 30_976, rotated: true }
+        Hemisphere {
+            directions: Directions::Fibonacci,
+            pixels: 30_976,
+            pixels_a_bit: 1,
+            rotated: true,
+        }
     }
 }
 
@@ -272,6 +311,18 @@ impl Plot {
 /// A field that is false by default is not told.
 fn is_false(value: &bool) -> bool {
     !value
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+fn is_one(value: &f64) -> bool {
+    *value == 1.0
+}
+
+fn is_single(value: &u32) -> bool {
+    *value == 1
 }
 
 fn default_machine() -> String {

@@ -2,9 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::display::DisplayFigures;
+use crate::errors::ErrorFigures;
 use crate::message_layer::MessageLayerFigures;
 use crate::network::NetworkFigures;
 use crate::node_memory::NodeMemoryFigures;
+use crate::start_up::StartUpFigures;
 
 /// The figures of one run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -47,9 +50,18 @@ pub struct Figures {
     /// What it tells of its nodes' memory, where that is modelled.
     #[serde(default)]
     pub memory: Option<NodeMemoryFigures>,
+    /// How far its radiosities are from the answer, if there is one.
+    #[serde(default)]
+    pub errors: Option<ErrorFigures>,
     /// What it tells of its machine's message layer, if that does anything.
     #[serde(default)]
     pub message_layer: Option<MessageLayerFigures>,
+    /// What it tells of the display, where one is modelled.
+    #[serde(default)]
+    pub display: Option<DisplayFigures>,
+    /// What it tells of its start-up, where that is modelled.
+    #[serde(default)]
+    pub start_up: Option<StartUpFigures>,
 }
 
 /// Where the energy is at the end of a run, in shares of the emitted energy, all colours together.

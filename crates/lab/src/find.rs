@@ -11,6 +11,8 @@ pub enum Shelf {
     Scenes,
     /// Machine descriptions.
     Machines,
+    /// Stored references.
+    References,
 }
 
 impl Shelf {
@@ -18,6 +20,16 @@ impl Shelf {
         match self {
             Shelf::Scenes => "scene",
             Shelf::Machines => "machine",
+            Shelf::References => "reference",
+        }
+    }
+
+    /// Its folder, beside that of the file that names it.
+    fn folder(self) -> &'static str {
+        match self {
+            Shelf::Scenes => "scenes",
+            Shelf::Machines => "machines",
+            Shelf::References => "results/references",
         }
     }
 }
@@ -33,7 +45,7 @@ pub struct Found {
 }
 
 /// Finds what the name or path `name` in a file in `folder` means. A name is looked up in
-/// `scenes/` or `machines/` beside the file's folder, then in the current folder; a path (with a
+/// the shelf's folder beside the file's folder, then in the current folder; a path (with a
 /// slash or an ending) is relative to `folder`, else to the current folder.
 ///
 /// # Errors
@@ -49,8 +61,8 @@ pub fn find(folder: &Path, shelf: Shelf, name: &str) -> Result<Found, String> {
                 format!("\"{name}\": no such file; expected a path from {}", from.display())
             });
     }
-    let lies_in = format!("{}s", shelf.noun());
-    let shelves = [beside(folder).join(&lies_in), PathBuf::from(&lies_in)];
+    let lies_in = shelf.folder();
+    let shelves = [beside(folder).join(lies_in), PathBuf::from(lies_in)];
     let file = format!("{name}.json");
     if !name.is_empty()
         && let Some(path) = shelves.iter().map(|s| s.join(&file)).find(|path| path.is_file())

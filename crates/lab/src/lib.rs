@@ -4,6 +4,7 @@
 //! out, run by run, each saved as it ends ([`carry_out`]); its results are written whole
 //! ([`Results`]). Knows nothing of how a kernel or a link works: all of that is behind `engine`.
 
+mod answer;
 mod chart;
 mod check;
 mod columns;
@@ -11,8 +12,10 @@ mod comparison;
 mod console;
 mod cut;
 mod digest;
+mod display;
 mod document;
 mod engine;
+mod errors;
 mod experiment;
 mod fault;
 mod figures;
@@ -23,6 +26,7 @@ mod host_clock;
 mod host_memory;
 mod host_times;
 mod json;
+mod knobs;
 mod machine_file;
 mod measure;
 mod message_layer;
@@ -50,12 +54,15 @@ mod schema;
 mod series;
 mod settings;
 mod shot_files;
+mod stage;
+mod start_up;
 mod summary;
 mod sweep;
 mod table;
+mod traces;
 
 pub use check::check;
-pub use engine::On;
+pub use engine::{Light, On};
 pub use experiment::{Plot, experiment_schema};
 pub use fault::Fault;
 pub use file::{read_text, write as write_file};
@@ -70,9 +77,12 @@ pub use results::{Results, write_host_times};
 pub use runner::{Endings, Event, Options, Watch, carry_out};
 pub use scene_file::scene_schema;
 pub use shot_files::ShotFiles;
+pub use stage::{Stage, StagedRun, Which};
 pub use table::Table;
+pub use traces::Traces;
 
-/// Draws a plot of a table as the text of an SVG file; a column `paper_<y>` holds published points.
+/// Draws a plot of a table as the text of an SVG file; a column `paper_<y>` or
+/// `published_<y>` holds published points.
 pub fn svg(table: &Table, plot: &Plot) -> String {
     chart::svg(table, &[], plot)
 }

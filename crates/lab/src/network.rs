@@ -1,8 +1,8 @@
 //! Which model of the network a run is simulated on, and what it tells of the network.
 
-use multicomputer::{Choice, Machine, MachineError, Model, Record, Recorder};
+use multicomputer::{Choice, Machine, MachineError, Model, Record, Recorder, Rung};
 use serde::{Deserialize, Serialize};
-use virtwall::{Outcome, Run, RunError};
+use virtwall::{Outcome, Run, RunError, SharedObserver, simulate_observed};
 
 use crate::experiment::Experiment;
 
@@ -39,7 +39,8 @@ pub fn tells(machine: &Machine, choice: Option<Model>) -> bool {
     choice.is_some() || machine.rung.is_none()
 }
 
-/// Simulates a run on the model that an experiment asks for, or else the machine's file.
+/// Simulates a run on the model that an experiment asks for, or else the machine's file, and tells
+/// `observer` of it.
 ///
 /// # Errors
 /// Why the run did not end.
@@ -47,9 +48,10 @@ pub fn simulate(
     run: &Run,
     machine: &Machine,
     point: &Experiment,
+    observer: Option<SharedObserver>,
 ) -> Result<(Outcome, Option<NetworkFigures>), RunError> {
     if !tells(machine, point.network) {
-        return Ok((virtwall::simulate(run, machine)?, None));
+        return Ok((simulate_observed(run, machine, machine.network(), observer)?, None));
     }
     let over = |network| {
         let outcome = virtwall::simulate_over(run, machine, network)?;
@@ -58,16 +60,36 @@ pub fn simulate(
     let chosen = match point.network.map_or(machine.rung, Model::rung) {
         None => {
             let tolerance = point.network_tolerance.as_ref().map_or(TOLERANCE, |t| t.value());
-            multicomputer::choose(machine, tolerance, over)?
+            let chosen = multicomputer::choose(machine, tolerance, over)?;
+            if observer.is_some() {
+                // Pilots are not what is observed, and which run is the last one shows only then.
+                simulate_observed(run, machine, machine.network_on(chosen.rung)?, observer)?;
+            }
+            chosen
         }
         Some(rung) => {
             let (network, record) = Recorder::new(machine.network_on(rung)?);
-            let (time, answer) = over(Box::new(network))?;
+            let answer = simulate_observed(run, machine, Box::new(network), observer)?;
+            let time = answer.time;
             Choice { rung, answer, time, record: record.take(), why: String::new() }
         }
     };
     let figures = figures(machine, &chosen);
     Ok((chosen.answer, Some(figures)))
+}
+
+/// The model that a run is simulated on; where that is left open, it is simulated to find out.
+///
+/// # Errors
+/// Why the run did not end.
+pub fn rung(run: &Run, machine: &Machine, point: &Experiment) -> Result<Rung, RunError> {
+    match point.network.map_or(machine.rung, Model::rung) {
+        Some(rung) => Ok(rung),
+        None => {
+            let (_, figures) = simulate(run, machine, point, None)?;
+            Ok(figures.and_then(|figures| figures.rung.parse().ok()).unwrap_or(Rung::LogGp))
+        }
+    }
 }
 
 fn figures(machine: &Machine, chosen: &Choice<Outcome>) -> NetworkFigures {

@@ -1,8 +1,6 @@
 //! Memory of the nodes: what an experiment changes of a machine's, and what runs tell of it.
 
-use std::borrow::Cow;
-
-use multicomputer::{Machine, NodeMemory};
+use multicomputer::NodeMemory;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use virtwall::{Outcome, Thing};
@@ -30,16 +28,8 @@ impl NodeMemoryFields {
         *self == NodeMemoryFields::default()
     }
 
-    /// The machine as the experiment has it.
-    pub fn laid_over<'a>(&self, machine: &'a Machine) -> Cow<'a, Machine> {
-        let mut machine = Cow::Borrowed(machine);
-        if !self.is_empty() {
-            machine.to_mut().node_memory.iter_mut().for_each(|memory| self.lay_over(memory));
-        }
-        machine
-    }
-
-    fn lay_over(&self, memory: &mut NodeMemory) {
+    /// Changes what the experiment names.
+    pub fn lay_over(&self, memory: &mut NodeMemory) {
         let bytes = |size: &Size| size.value().round() as u64;
         if let Some(available) = &self.available {
             memory.available = bytes(available);

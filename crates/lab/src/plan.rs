@@ -8,7 +8,8 @@ use multicomputer::Machine;
 use serde_json::Value;
 use virtwall::Problem;
 
-use crate::columns::{Also, ENVIRONMENTS};
+use crate::answer::Stored;
+use crate::columns::Also;
 use crate::comparison::Comparison;
 use crate::digest::FileDigest;
 use crate::experiment::{Experiment, Plot};
@@ -34,6 +35,8 @@ pub struct Plan {
     pub problems: Vec<Prepared>,
     /// Machines.
     pub machines: Vec<Equipment>,
+    /// Stored references.
+    pub references: Vec<Stored>,
     /// Published figures.
     pub comparison: Comparison,
     /// What to draw.
@@ -53,7 +56,9 @@ impl Plan {
             memory: self.runs.iter().any(|run| machine(run).node_memory.is_some()),
             message_layer: self.runs.iter().any(|run| message_layer::tells(machine(run))),
             caches: self.runs.iter().any(|run| !machine(run).processor.caches.is_empty()),
-            environments: self.axes.iter().any(|axis| axis.place.to_string() == ENVIRONMENTS),
+            errors: self.runs.iter().any(|run| run.point.reference.is_some()),
+            display: self.runs.iter().any(|run| machine(run).display.is_some()),
+            start_up: self.runs.iter().any(|run| machine(run).start_up.is_some()),
         }
     }
 }
@@ -68,6 +73,8 @@ pub struct Run {
     pub problem: usize,
     /// Index into [`Plan::machines`].
     pub machine: usize,
+    /// Index into [`Plan::references`]; none where a run has no reference, or a dense one.
+    pub stored: Option<usize>,
 }
 
 /// A scene, meshed and cut.
@@ -78,6 +85,8 @@ pub struct Prepared {
     pub problem: Arc<Problem>,
     /// The scene's files.
     pub digests: Vec<FileDigest>,
+    /// Bytes of its geometry and materials.
+    pub scene_bytes: u64,
     /// CPU seconds that reading, cleaning, cutting and meshing took.
     pub set_up_s: f64,
 }

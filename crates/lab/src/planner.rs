@@ -1,10 +1,14 @@
 //! How a plan is made from an experiment file: every check there is, and nothing loaded twice.
 
-use std::path::Path;
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
+use multicomputer::Machine;
 use reference::parallel;
 use serde_json::Value;
 
+use crate::answer::{self, Stored};
 use crate::columns;
 use crate::comparison::Comparison;
 use crate::digest::FileDigest;
@@ -15,6 +19,7 @@ use crate::fault::{Fault, unknown};
 use crate::file::{PLAIN, is_plain};
 use crate::find::{Found, Shelf, find};
 use crate::host_clock::HostClock;
+use crate::knobs;
 use crate::machine_file::MachineFile;
 use crate::measure::Measure;
 use crate::network;
@@ -34,7 +39,19 @@ impl Plan {
     /// # Errors
     /// The first fault met. Nothing was written.
     pub fn read(path: &Path, arguments: &[String], threads: usize) -> Result<Plan, Fault> {
-        let mut document = Document::read(path)?;
+        Plan::of(path, Document::read(path)?, arguments, threads)
+    }
+
+    /// Reads an experiment from a document, as if it were the file at `path`.
+    ///
+    /// # Errors
+    /// The first fault met. Nothing was written.
+    pub(crate) fn of(
+        path: &Path,
+        mut document: Document,
+        arguments: &[String],
+        threads: usize,
+    ) -> Result<Plan, Fault> {
         for argument in arguments {
             document.set(argument)?;
         }
@@ -47,6 +64,8 @@ impl Plan {
             threads,
             scenes: Vec::new(),
             machines: Vec::new(),
+            references: BTreeMap::new(),
+            stored: Vec::new(),
         };
         planner.plan()
     }
@@ -61,6 +80,9 @@ struct Planner<'a> {
     threads: usize,
     scenes: Vec<Found>,
     machines: Vec<Equipment>,
+    /// Which of those stored, by file and scene.
+    references: BTreeMap<(PathBuf, usize), usize>,
+    stored: Vec<Stored>,
 }
 
 /// A point of the sweep whose scene is yet to be read.
@@ -85,10 +107,11 @@ impl Planner<'_> {
         let scenes = self.load()?;
         let (problems, problem_of) = self.problems(&drafts, &scenes)?;
         let runs = drafts.into_iter().zip(problem_of).map(|(draft, problem)| {
+            let stored = self.reference(&draft, &scenes[draft.scene].0, &problems[problem])?;
             let Draft { point, typed, machine, .. } = draft;
-            Run { index: point.index.clone(), point: typed, problem, machine }
+            Ok(Run { index: point.index.clone(), point: typed, problem, machine, stored })
         });
-        let runs: Vec<Run> = runs.collect();
+        let runs = runs.collect::<Result<Vec<Run>, Fault>>()?;
         let first = &runs[0].point;
         let (title, plots) = (first.title.clone(), first.plots.clone());
         let resolved = self.resolved(first);
@@ -98,6 +121,7 @@ impl Planner<'_> {
             scenes.iter().flat_map(|(scene, _)| scene.digests.clone()).collect();
         files.extend(self.machines.iter().flat_map(|machine| machine.digests.clone()));
         files.extend(compared);
+        files.extend(self.stored.iter().map(|stored| stored.digest.clone()));
         files.sort();
         files.dedup();
         let warnings = scenes.iter().flat_map(|(scene, _)| scene.warnings.clone()).collect();
@@ -109,6 +133,7 @@ impl Planner<'_> {
             runs,
             problems,
             machines: self.machines,
+            references: self.stored,
             comparison,
             plots,
             warnings,
@@ -154,15 +179,46 @@ impl Planner<'_> {
             );
             return Err(self.fault(point, "processors", message));
         }
-        if self.machines[machine].machine.node_memory.is_none() && !typed.node_memory.is_empty() {
-            let message = format!("the memory of \"{}\" is not modelled", typed.machine);
-            let message = message + "; expected a machine whose file has \"node_memory\"";
-            return Err(self.fault(point, "node_memory", message));
+        if let Some((field, what)) = lacks(&self.machines[machine].machine, &typed) {
+            let message = format!("the {what} of \"{}\" is not modelled", typed.machine);
+            let section = if field == "count_start_up" { "start_up" } else { field };
+            let message = message + &format!("; expected a machine whose file has \"{section}\"");
+            return Err(self.fault(point, field, message));
         }
         network::check(&self.machines[machine].machine, typed.network)
             .map_err(|error| self.fault(point, "network", error.to_string()))?;
+        knobs::check(&typed).map_err(|(field, message)| self.fault(point, field, message))?;
         let scene = self.scene(point, &typed)?;
         Ok(Draft { point, typed, scene, machine })
+    }
+
+    /// The stored reference of a draft, read once; none if it has none, or a dense one.
+    fn reference(
+        &mut self,
+        draft: &Draft,
+        scene: &Scene,
+        problem: &Prepared,
+    ) -> Result<Option<usize>, Fault> {
+        let Some(name) = draft.typed.reference.as_deref() else { return Ok(None) };
+        let refuse = |message| self.fault(draft.point, "reference", message);
+        if name == answer::DENSE {
+            let patches = problem.problem.patches();
+            let most = answer::MOST_DENSE;
+            let message = format!("\"{name}\" for {patches} patches; expected at most {most}");
+            return if patches > most { Err(refuse(message)) } else { Ok(None) };
+        }
+        let stem = || self.scenes[draft.scene].path.file_stem().unwrap_or_default();
+        let name =
+            if name == answer::STORED { stem().to_string_lossy() } else { Cow::Borrowed(name) };
+        let found = find(self.folder, Shelf::References, &name).map_err(refuse)?;
+        let key = (found.path.clone(), draft.scene);
+        if let Some(&known) = self.references.get(&key) {
+            return Ok(Some(known));
+        }
+        let stored = Stored::read(&found, &scene.geometry)?;
+        self.stored.push(stored);
+        self.references.insert(key, self.stored.len() - 1);
+        Ok(Some(self.stored.len() - 1))
     }
 
     /// A fault of a field at one point of the sweep.
@@ -225,8 +281,9 @@ impl Planner<'_> {
             let clock = HostClock::start();
             let problem = engine::problem(&scene.geometry, settings)
                 .map_err(|(field, message)| self.fault(draft.point, field, message))?;
+            let set_up_s = loading_s + clock.cpu_seconds();
             let (settings, digests) = (settings.clone(), scene.digests.clone());
-            Ok(Prepared { settings, problem, digests, set_up_s: loading_s + clock.cpu_seconds() })
+            Ok(Prepared { settings, problem, digests, scene_bytes: scene.bytes, set_up_s })
         };
         let problems = parallel::map(wanted.len(), self.threads, prepare, || ());
         Ok((problems.into_iter().collect::<Result<_, Fault>>()?, problem_of))
@@ -251,6 +308,17 @@ impl Planner<'_> {
         }
         Ok((Comparison::read(&path)?, Some(FileDigest::of(&path, name)?)))
     }
+}
+
+/// The first field that asks for what a machine does not model, and what that is.
+fn lacks(machine: &Machine, typed: &Experiment) -> Option<(&'static str, &'static str)> {
+    if machine.node_memory.is_none() && !typed.node_memory.is_empty() {
+        return Some(("node_memory", "memory"));
+    }
+    if machine.display.is_none() && !typed.display.is_empty() {
+        return Some(("display", "display"));
+    }
+    (machine.start_up.is_none() && typed.count_start_up).then_some(("count_start_up", "start-up"))
 }
 
 /// Refuses plots of columns that there will not be, or with names that lead elsewhere.

@@ -81,6 +81,20 @@ impl Kind for SizeKind {
     }
 }
 
+/// Bytes a second.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RateKind;
+
+impl Kind for RateKind {
+    const NAME: &'static str = "a bandwidth";
+    const DIMENSION: Dimension = Dimension::Bandwidth;
+    const EXAMPLE: &'static str = "10 Mbit/s";
+    const RANGE: &'static str = "from 1 B/s to 1 TB/s";
+    fn allows(value: f64) -> bool {
+        (1.0..=1e12).contains(&value)
+    }
+}
+
 /// A number with its unit, as text in a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quantity<K> {
@@ -97,6 +111,8 @@ pub type Fraction = Quantity<FractionKind>;
 pub type Period = Quantity<PeriodKind>;
 /// A size of memory, in bytes.
 pub type Size = Quantity<SizeKind>;
+/// A bandwidth, in bytes a second.
+pub type Rate = Quantity<RateKind>;
 
 impl<K: Kind> Quantity<K> {
     /// Reads text such as "0.30 m".
@@ -111,7 +127,7 @@ impl<K: Kind> Quantity<K> {
         Ok(Quantity { text: text.to_owned(), value, kind: PhantomData })
     }
 
-    /// The value in the base unit: metres, seconds, bytes, or a fraction of 1.
+    /// The value in the base unit: metres, seconds, bytes, bytes a second, or a fraction of 1.
     pub fn value(&self) -> f64 {
         self.value
     }

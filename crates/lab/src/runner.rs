@@ -1,19 +1,25 @@
 //! Carries a plan out: independent runs side by side, each saved as soon as it is finished.
 
+use std::cell::RefCell;
 use std::io;
 use std::path::Path;
+use std::rc::Rc;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use virtwall::{Helpers, KeptShots, Memory, ShotCounts};
+use radiosity::Rgb;
+use virtwall::{Helpers, KeptShots, Memory, Recording, SharedObserver, ShotCounts};
 
+use crate::answer::DenseAnswers;
 use crate::engine::{self, On};
+use crate::errors::{ErrorFigures, Radiosity, Yardstick};
 use crate::figures::Figures;
 use crate::held::held;
 use crate::host_clock::{HostClock, HostTimes};
-use crate::plan::Plan;
+use crate::plan::{Plan, Prepared};
 use crate::queue::{Queue, Task};
 use crate::saved::Saved;
 use crate::shot_files::ShotFiles;
+use crate::traces::Traces;
 
 /// How a plan is carried out. None of it changes what a simulated run finds.
 pub struct Options {
@@ -27,6 +33,8 @@ pub struct Options {
     pub memory: usize,
     /// Where shots are kept beyond memory and beyond this sweep.
     pub shot_files: Option<ShotFiles>,
+    /// Traces to be written of simulated runs; runs found finished are simulated again for them.
+    pub traces: Option<Traces>,
 }
 
 /// Something that happened while a plan is carried out.
@@ -52,6 +60,9 @@ pub type Watch = Arc<dyn Fn(Event) + Send + Sync>;
 /// How one run ended: its figures, or why it failed.
 pub type Ending = Result<Figures, String>;
 
+/// The same with the radiosities found, by environment.
+type Ended = Result<(Figures, Vec<Vec<Rgb>>), String>;
+
 /// How all runs ended.
 pub struct Endings {
     /// In the plan's order; none for a run that was not come to.
@@ -70,7 +81,7 @@ pub struct Endings {
 /// If a finished run cannot be saved. A run that fails is no error here: it ends so.
 pub fn carry_out(plan: &Plan, out: &Path, options: &Options, watch: Watch) -> io::Result<Endings> {
     let saved = Saved::in_folder(out);
-    if options.fresh {
+    if options.fresh || options.traces.is_some() {
         saved.forget()?;
     }
     let keys: Vec<String> = plan.runs.iter().map(|run| saved.key(plan, run, options.on)).collect();
@@ -92,6 +103,7 @@ pub fn carry_out(plan: &Plan, out: &Path, options: &Options, watch: Watch) -> io
         queue: Mutex::new(Queue::new(plan, waiting)),
         runs: Mutex::new(found),
         host: Mutex::new(host),
+        dense: DenseAnswers::default(),
         trouble: Mutex::new(None),
     };
     std::thread::scope(|scope| {
@@ -119,6 +131,7 @@ struct Desk<'a> {
     queue: Mutex<Queue>,
     runs: Mutex<Vec<Option<Ending>>>,
     host: Mutex<Vec<Option<HostTimes>>>,
+    dense: DenseAnswers,
     trouble: Mutex<Option<io::Error>>,
 }
 
@@ -130,16 +143,22 @@ impl Desk<'_> {
                 return;
             };
             let clock = HostClock::start();
-            let ending = self.run(&task);
-            let run = task.run;
+            let (ended, traced) = self.run(&task);
             let host = HostTimes {
                 cpu_s: clock.cpu_seconds(),
                 set_up_s: self.plan.problems[task.problem].set_up_s,
                 clock_s: clock.seconds(),
             };
-            if let Ok(figures) = &ending
-                && let Err(error) = self.saved.store(&self.keys[run], figures, host)
-            {
+            let ending = ended.map(|(figures, radiosity)| Figures {
+                errors: self.errors(&task, &radiosity),
+                ..figures
+            });
+            let run = task.run;
+            let stored = match &ending {
+                Ok(figures) => self.saved.store(&self.keys[run], figures, host),
+                Err(_) => Ok(()),
+            };
+            if let Err(error) = traced.and(stored) {
                 *held(&self.trouble) = Some(error);
             }
             held(&self.runs)[run] = Some(ending);
@@ -164,9 +183,22 @@ impl Desk<'_> {
         Endings { runs, host, shots, shot_bytes }
     }
 
-    fn run(&self, task: &Task) -> Ending {
+    /// How far a run is from the answer, if there is one; no part of what the run took of the host.
+    fn errors(&self, task: &Task, radiosity: &Radiosity) -> Option<ErrorFigures> {
         let run = &self.plan.runs[task.run];
         let problem = &self.plan.problems[run.problem].problem;
+        run.point.reference.as_ref()?;
+        let answer = match run.stored {
+            Some(stored) => Arc::clone(&self.plan.references[stored].answer),
+            None => self.dense.of(problem),
+        };
+        Some(Yardstick::new(&answer, problem).errors(radiosity))
+    }
+
+    /// Carries a run out, and writes its trace if there is to be one.
+    fn run(&self, task: &Task) -> (Ended, io::Result<()>) {
+        let run = &self.plan.runs[task.run];
+        let Prepared { problem, scene_bytes, .. } = &self.plan.problems[run.problem];
         let machine = &self.plan.machines[run.machine].machine;
         let (watch, index) = (Arc::clone(&self.watch), task.run);
         let on_shot = Arc::new(move || watch(Event::Shot { run: index }));
@@ -174,6 +206,15 @@ impl Desk<'_> {
         let nothing_kept = Arc::new(KeptShots::new(0));
         let kept = if point.reuse_shots { &task.kept } else { &nothing_kept };
         let run = engine::run(problem, point, kept, on_shot);
-        engine::carry_out(&run, point, self.options.on, machine)
+        let on = self.options.on;
+        let Some(traces) = &self.options.traces else {
+            return (engine::carry_out(&run, point, on, machine, *scene_bytes, None), Ok(()));
+        };
+        let recording = Rc::new(RefCell::new(Recording::new(problem, run.processors)));
+        let observer: SharedObserver = recording.clone();
+        let ending = engine::carry_out(&run, point, on, machine, *scene_bytes, Some(observer));
+        // Of a run that failed, too: there it is needed most.
+        let traced = traces.write(self.plan, task.run, &recording.borrow());
+        (ending, traced)
     }
 }

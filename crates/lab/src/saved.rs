@@ -46,6 +46,7 @@ impl Saved {
             "on": on,
             "scene": digests(&prepared.digests),
             "settings": prepared.settings,
+            "reference": run.stored.map(|stored| &plan.references[stored].digest.sha256),
             "machine": digests(&plan.machines[run.machine].digests),
             "point": point,
         });

@@ -1,6 +1,6 @@
 //! A scene: its geometry, with its description if it has one.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::path::Path;
 use std::{fs, io};
 
@@ -23,6 +23,8 @@ pub struct Scene {
     pub warnings: Vec<String>,
     /// The files it was read from.
     pub digests: Vec<FileDigest>,
+    /// Bytes of its geometry and materials.
+    pub bytes: u64,
 }
 
 impl Scene {
@@ -70,9 +72,10 @@ impl Scene {
     ) -> Result<Scene, Fault> {
         let folder = path.parent().unwrap_or(Path::new(""));
         // Materials decide the light as much as the geometry does. What is missing is warned of.
-        let digests = RefCell::new(Vec::new());
+        let (digests, bytes_read) = (RefCell::new(Vec::new()), Cell::new(0));
         let digesting = |path: &Path| {
             let bytes = reader(path)?;
+            bytes_read.set(bytes_read.get() + bytes.len() as u64);
             let name = path.strip_prefix(folder).unwrap_or(path);
             let label = label.with_file_name(name).display().to_string();
             digests.borrow_mut().push(FileDigest::of_bytes(&bytes, &label));
@@ -82,7 +85,8 @@ impl Scene {
             radiosity::load_obj_from(path, &digesting).map_err(Fault::complete)?;
         let label = label.display();
         let warnings = warnings.iter().map(|warning| format!("{label}: {warning}")).collect();
-        Ok(Scene { file: None, geometry, warnings, digests: digests.into_inner() })
+        let (digests, bytes) = (digests.into_inner(), bytes_read.get());
+        Ok(Scene { file: None, geometry, warnings, digests, bytes })
     }
 }
 

@@ -14,7 +14,8 @@ use lab::{Endings, On, Options, Plan, Results, ShotFiles, carry_out};
 fn swept(project: &Project, memory: usize) -> (Results, Endings) {
     let plan = Plan::read(&project.path("experiments/x.json"), &[], 1).unwrap();
     let shot_files = Some(ShotFiles::open(&project.path("shots")).unwrap());
-    let options = Options { threads: 2, fresh: true, on: On::Simulation, memory, shot_files };
+    let options =
+        Options { threads: 2, fresh: true, on: On::Simulation, memory, shot_files, traces: None };
     let endings = carry_out(&plan, &project.path("out"), &options, Arc::new(|_| {})).unwrap();
     assert_eq!(options.shot_files.unwrap().trouble(), None);
     (Results::of(&plan, &endings, On::Simulation).unwrap(), endings)
@@ -86,7 +87,7 @@ fn a_folder_that_has_gone_is_told() {
     let shot_files = Some(ShotFiles::open(&project.path("gone")).unwrap());
     fs::remove_dir(project.path("gone")).unwrap();
     let (on, memory) = (On::Simulation, 1 << 30);
-    let options = Options { threads: 1, fresh: true, on, memory, shot_files };
+    let options = Options { threads: 1, fresh: true, on, memory, shot_files, traces: None };
     let endings = carry_out(&plan, &project.path("out"), &options, Arc::new(|_| {})).unwrap();
     assert!(Results::of(&plan, &endings, on).unwrap().table == results.table);
     let trouble = options.shot_files.unwrap().trouble().unwrap();
@@ -103,7 +104,8 @@ fn sweeps_at_a_time_do_not_harm_each_other() {
                 let plan = Plan::read(&project.path("experiments/x.json"), &[], 1).unwrap();
                 let shot_files = Some(ShotFiles::open(&project.path("shots")).unwrap());
                 let (on, memory) = (On::Simulation, 1 << 20);
-                let options = Options { threads: 1, fresh: false, on, memory, shot_files };
+                let options =
+                    Options { threads: 1, fresh: false, on, memory, shot_files, traces: None };
                 let out = tempfile::tempdir().unwrap();
                 let endings = carry_out(&plan, out.path(), &options, Arc::new(|_| {})).unwrap();
                 Results::of(&plan, &endings, On::Simulation).unwrap().table

@@ -42,9 +42,18 @@ fn every_field_is_described_and_every_leaf_can_be_swept() {
         .collect();
     assert_eq!(
         unswept,
-        ["$schema", "title", "node_memory", "hemisphere", "stop", "compare_with", "plots"]
+        [
+            "$schema",
+            "title",
+            "node_memory",
+            "display",
+            "hemisphere",
+            "stop",
+            "compare_with",
+            "plots"
+        ]
     );
-    for group in ["node_memory", "hemisphere", "stop"] {
+    for group in ["node_memory", "display", "hemisphere", "stop"] {
         for (name, field) in fields[group]["properties"].as_object().unwrap() {
             assert_eq!(field["anyOf"][1]["type"], "array", "{group}.{name}");
         }

@@ -13,7 +13,14 @@ use common::{Project, SWEEP};
 use lab::{Event, On, Options, Plan, Results, carry_out};
 
 fn options(threads: usize) -> Options {
-    Options { threads, fresh: false, on: On::Simulation, memory: 1 << 30, shot_files: None }
+    Options {
+        threads,
+        fresh: false,
+        on: On::Simulation,
+        memory: 1 << 30,
+        shot_files: None,
+        traces: None,
+    }
 }
 
 fn plan(project: &Project) -> Plan {

@@ -3,8 +3,8 @@
 use desim::{Duration, Time};
 
 /// What a node did with its time, and its traffic. Compute, both overheads, packing, copying, waiting
-/// for room, paging and idle sum exactly to the node's life: from the start until it finished, or
-/// until the account was drawn up.
+/// for room, forwarding, waiting for the display, paging and idle sum exactly to the node's life: from
+/// the start until it finished, or until the account was drawn up.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct NodeAccount {
     /// Time in kernels.
@@ -17,6 +17,10 @@ pub struct NodeAccount {
     pub layer: LayerAccount,
     /// Time spent waiting for pages that were not in memory.
     pub paging: Duration,
+    /// Time given to sending what goes on to the display; the service node's.
+    pub forwarding: Duration,
+    /// Time spent waiting for room on the way to the display.
+    pub waiting_for_display: Duration,
     /// The rest.
     pub idle: Duration,
     /// Messages sent.
@@ -54,7 +58,13 @@ impl NodeAccount {
     /// Time that the processor gave to messages.
     pub fn overhead(&self) -> Duration {
         let LayerAccount { packing, copying, waiting_for_room, .. } = self.layer;
-        self.send_overhead + self.receive_overhead + packing + copying + waiting_for_room
+        self.send_overhead
+            + self.receive_overhead
+            + packing
+            + copying
+            + waiting_for_room
+            + self.forwarding
+            + self.waiting_for_display
     }
 
     /// The node's life: all spans.
@@ -93,6 +103,10 @@ pub enum Activity {
     Copy,
     /// It waits for room in a receiver's buffers.
     WaitForRoom,
+    /// It sends on to the display.
+    Forward,
+    /// It waits for room on the way to the display.
+    WaitForDisplay,
     /// Nothing.
     #[default]
     Idle,
@@ -169,6 +183,8 @@ impl Ledger {
                 Activity::Pack => &mut self.account.layer.packing,
                 Activity::Copy => &mut self.account.layer.copying,
                 Activity::WaitForRoom => &mut self.account.layer.waiting_for_room,
+                Activity::Forward => &mut self.account.forwarding,
+                Activity::WaitForDisplay => &mut self.account.waiting_for_display,
                 Activity::Idle => &mut self.account.idle,
             } += spent;
             if let Some(observer) = self.observer.as_mut().filter(|_| spent > Duration::ZERO) {

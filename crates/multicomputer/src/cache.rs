@@ -20,17 +20,18 @@ pub struct CacheLevel {
     pub miss_time: f64,
 }
 
-/// The levels of a machine file: whole lines in whole sets, no line shorter than those of the level
-/// before.
+/// The levels of a machine file: a line and a number of sets are powers of two, and no line is shorter
+/// than those of the level before.
 pub(crate) fn levels(files: &[CacheFile]) -> Result<Vec<CacheLevel>, MachineFault> {
     let mut levels: Vec<CacheLevel> = Vec::new();
     for (i, file) in files.iter().enumerate() {
         let bytes = |name: &str, found: f64, unit: u64, most: u64| {
-            if found >= unit as f64 && found <= most as f64 && found % unit as f64 == 0.0 {
+            let units = found / unit as f64;
+            if units.fract() == 0.0 && (units as u64).is_power_of_two() && found <= most as f64 {
                 return Ok(found as u64);
             }
             let place = format!("processor.caches[{i}].{name}.value");
-            let expected = format!("expected a multiple of {unit} B, at most {most} B");
+            let expected = format!("expected {unit} B times a power of two, at most {most} B");
             Err(MachineFault::at(&place, format!("found {found} B; {expected}")))
         };
         let ways = u64::from(file.ways.value.get());
@@ -51,6 +52,9 @@ pub struct Caches {
 #[derive(Clone, Debug)]
 struct Cache {
     level: CacheLevel,
+    /// A line's bytes and the number of sets less one, as shift and mask.
+    line: u32,
+    sets: u64,
     /// The line held by each way of each set, the one used last first.
     held: Vec<u64>,
     misses: u64,
@@ -63,6 +67,8 @@ impl Caches {
     /// Empty caches, the nearest level first.
     pub fn new(levels: &[CacheLevel]) -> Caches {
         let cache = |level: &CacheLevel| Cache {
+            line: level.line.trailing_zeros(),
+            sets: level.size / level.line / level.ways - 1,
             held: vec![NONE; (level.size / level.line) as usize],
             misses: 0,
             level: level.clone(),
@@ -74,10 +80,10 @@ impl Caches {
     #[inline]
     pub fn touch(&mut self, address: u64, bytes: u64) {
         let Some((first, next)) = self.levels.split_first_mut() else { return };
-        let line = first.level.line;
-        for number in address / line..=(address + bytes - 1) / line {
-            if !first.touch(number) {
-                next.iter_mut().all(|cache| !cache.touch(number * line / cache.level.line));
+        for line in address >> first.line..=(address + bytes - 1) >> first.line {
+            if !first.touch(line) {
+                let address = line << first.line;
+                next.iter_mut().all(|cache| !cache.touch(address >> cache.line));
             }
         }
     }
@@ -97,9 +103,9 @@ impl Cache {
     /// Use a line; whether it was there.
     #[inline]
     fn touch(&mut self, line: u64) -> bool {
-        let ways = self.level.ways;
-        let first = (line % (self.held.len() as u64 / ways) * ways) as usize;
-        let held = &mut self.held[first..first + ways as usize];
+        let ways = self.level.ways as usize;
+        let first = (line & self.sets) as usize * ways;
+        let held = &mut self.held[first..first + ways];
         if held[0] == line {
             return true;
         }

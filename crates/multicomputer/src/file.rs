@@ -8,9 +8,11 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
 
+use crate::display::DisplayFile;
 use crate::message_layer::MessageLayerFile;
 use crate::network::Model;
 use crate::sourced::{Bandwidth, Bytes, Cycles, Frequency, Positive, Quantity, Sourced, Time};
+use crate::start_up::StartUpFile;
 
 /// A distributed-memory machine: compute nodes and service nodes on a mesh, a torus, a crossbar or a
 /// bus. Every number says how it is known and where it comes from.
@@ -56,6 +58,13 @@ pub(crate) struct MachineFile {
     /// is left out of it costs nothing.
     #[serde(default)]
     pub(crate) message_layer: MessageLayerFile,
+    /// What gathers updates on the service node and shows them elsewhere; without it they end there and
+    /// cost nothing more.
+    #[serde(default)]
+    pub(crate) display: Option<DisplayFile>,
+    /// How nodes read their input and make themselves ready; without it that takes no time.
+    #[serde(default)]
+    pub(crate) start_up: Option<StartUpFile>,
     /// What has been measured on the real machine, to stand beside what is simulated.
     #[serde(default)]
     pub(crate) published: PublishedFile,
@@ -204,7 +213,9 @@ pub fn machine_schema() -> serde_json::Value {
 }
 
 /// Reads a map and refuses a key that stands in it twice, which serde's own maps let pass.
-fn without_repetition<'de, D, T>(deserializer: D) -> Result<BTreeMap<String, T>, D::Error>
+pub(crate) fn without_repetition<'de, D, T>(
+    deserializer: D,
+) -> Result<BTreeMap<String, T>, D::Error>
 where
     D: Deserializer<'de>,
     T: Deserialize<'de>,

@@ -4,14 +4,14 @@
 //! number of bytes. A [`Machine`] is what a file in `machines/` says, checked once; a
 //! [`Multicomputer`] is such a machine running over [`desim`], whose processes each hold a
 //! [`Node`].
-//!
-//! Disks would be a further cost of a [`Node`].
 
 mod account;
 mod agenda;
 mod auto;
 mod buffers;
 mod cache;
+mod display;
+mod ethernet;
 mod fault;
 mod file;
 mod kernels;
@@ -27,7 +27,9 @@ pub mod quantity;
 mod record;
 mod replay;
 mod shared;
+mod socket;
 mod sourced;
+mod start_up;
 mod topology;
 mod trace;
 mod traffic;
@@ -36,6 +38,8 @@ pub use account::{Activity, LayerAccount, NodeAccount};
 pub use auto::{Choice, choose};
 pub use buffers::{FullBuffers, Rank};
 pub use cache::{CacheLevel, Caches};
+pub use display::{Display, WhenFull};
+pub use ethernet::Ethernet;
 pub use fault::MachineFault;
 pub use file::machine_schema;
 pub use kernels::{KernelError, exchange, hot_spot, ping_pong};
@@ -53,6 +57,8 @@ pub use observer::{MachineObserver, Sent};
 pub use processor::Processor;
 pub use record::{Letter, Record, Recorder};
 pub use replay::{Course, ReplayDeadlock, replay};
+pub use socket::{DisplayAccount, Socket};
+pub use start_up::{Reading, StartUp};
 pub use topology::{Hop, Link, Place, Position, Shape, Topology};
 pub use trace::{Item, Trace, trace_schema};
 pub use traffic::{Load, Measured, Pattern, fluid_bound};

@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::cache;
+use crate::display::{Display, DisplayFile};
 use crate::fault::{MachineFault, read};
 use crate::file::{LinksFile, LogGpFile, MachineFile, NetworkFile, NodeMemoryFile, ProcessorFile};
 use crate::memory::NodeMemory;
@@ -10,6 +11,7 @@ use crate::message_layer::MessageLayer;
 use crate::network::{LinkParameters, LogGpParameters, Network, NetworkParameters, Rung};
 use crate::processor::Processor;
 use crate::sourced::{Bytes, Quantity};
+use crate::start_up::{StartUp, StartUpFile};
 use crate::topology::{Place, Shape, Topology};
 
 /// Largest network, in places: beyond it a file can only be a slip.
@@ -37,6 +39,10 @@ pub struct Machine {
     pub rung: Option<Rung>,
     /// What its nodes' message layer does besides LogGP's overheads, on every rung.
     pub message_layer: MessageLayer,
+    /// The way of what goes from the service node to a display; none where it is not modelled.
+    pub display: Option<Display>,
+    /// How nodes read their input; none where it is not modelled.
+    pub start_up: Option<StartUp>,
     /// What has been measured on the real machine.
     pub published: Published,
     topology: Topology,
@@ -168,6 +174,9 @@ fn validate(file: MachineFile) -> Result<Machine, MachineFault> {
     let (title, processor) = (file.title, processor(file.processor)?);
     let (rung, parameters) = network(&file.network, hop_time)?;
     let message_layer = file.message_layer.check()?;
+    agree(node_memory.as_ref(), &message_layer)?;
+    let display = file.display.as_ref().map(DisplayFile::check).transpose()?;
+    let start_up = file.start_up.map(StartUpFile::check).transpose()?;
     let published = Published {
         latency: file.published.latency.map(|latency| latency.value.duration()),
         bandwidth: file.published.bandwidth.map(|bandwidth| bandwidth.value.si),
@@ -179,6 +188,8 @@ fn validate(file: MachineFile) -> Result<Machine, MachineFault> {
         parameters,
         rung,
         message_layer,
+        display,
+        start_up,
         published,
         topology: Topology::new(shape),
         compute_nodes: file.compute_nodes.value.get().into(),
@@ -320,6 +331,16 @@ fn node_memory(file: &NodeMemoryFile) -> Result<NodeMemory, MachineFault> {
         bandwidth: file.bandwidth.value.si,
         sizes: sizes.collect(),
     })
+}
+
+/// What is set aside for messages in memory is what the message layer has for them.
+fn agree(memory: Option<&NodeMemory>, layer: &MessageLayer) -> Result<(), MachineFault> {
+    let (Some(memory), Some(buffers)) = (memory, layer.buffer_bytes) else { return Ok(()) };
+    if memory.message_buffers == buffers {
+        return Ok(());
+    }
+    let message = format!("found {buffers} B; expected {} B", memory.message_buffers);
+    refuse("message_layer.buffers.value", message + ", as \"node_memory.message_buffers\" says")
 }
 
 fn loggp(file: &LogGpFile, hop_time: desim::Duration) -> LogGpParameters {

@@ -16,7 +16,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::fault::MachineFault;
-use crate::sourced::{Bandwidth, Bytes, Quantity, Sourced, Time};
+use crate::sourced::{Bandwidth, Bytes, Quantity, Sourced, Time, whole_bytes};
 
 /// What a node's message layer does besides LogGP's overheads; the default is nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -95,7 +95,7 @@ impl MessageLayerFile {
     /// The message layer, if its sizes are whole numbers of bytes.
     pub(crate) fn check(&self) -> Result<MessageLayer, MachineFault> {
         let packets = self.packets.as_ref().map(|packets| {
-            let bytes = whole_bytes("packets.size", &packets.size)?;
+            let bytes = whole_bytes("message_layer.packets.size", &packets.size)?;
             Ok(Packets { bytes, time: packets.time.value.duration() })
         });
         let buffers = self.buffers.as_ref();
@@ -103,16 +103,9 @@ impl MessageLayerFile {
             packets: packets.transpose()?,
             handover: self.coprocessor.as_ref().map(|c| c.handover.value.duration()),
             copy_bandwidth: self.copy_bandwidth.as_ref().map(|copy| copy.value.si),
-            buffer_bytes: buffers.map(|bytes| whole_bytes("buffers", bytes)).transpose()?,
+            buffer_bytes: buffers
+                .map(|bytes| whole_bytes("message_layer.buffers", bytes))
+                .transpose()?,
         })
     }
-}
-
-fn whole_bytes(field: &str, size: &Sourced<Quantity<Bytes>>) -> Result<u64, MachineFault> {
-    let found = size.value.si;
-    if (1.0..=1e15).contains(&found) && found.fract() == 0.0 {
-        return Ok(found as u64);
-    }
-    let message = format!("found {found} B; expected a whole number of bytes, at least 1");
-    Err(MachineFault::at(format!("message_layer.{field}.value"), message))
 }

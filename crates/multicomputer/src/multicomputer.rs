@@ -51,7 +51,9 @@ impl<M: 'static> Multicomputer<M> {
         let nodes = machine
             .places(compute_ranks)?
             .enumerate()
-            .map(|(rank, place)| NodeState::new(handle, machine, rank, place))
+            .map(|(rank, place)| {
+                NodeState::new(handle, machine, (rank, rank == compute_ranks), place)
+            })
             .collect();
         Ok(Multicomputer(Rc::new_cyclic(|shared: &Weak<Shared<M>>| {
             let shared = shared.clone();

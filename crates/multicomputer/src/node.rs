@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use desim::{Duration, Time};
+use desim::{Duration, Handle, Signal, Time};
 
 use crate::account::Activity;
 use crate::buffers::{FullBuffers, Rank};
@@ -81,7 +81,7 @@ impl<M: 'static> Node<M> {
             *self.shared.full_buffers.borrow_mut() = Some(full);
         }
         sender.ledger.borrow_mut().held();
-        sender.ledger.borrow_mut().turn_to(Activity::WaitForRoom, self.now());
+        sender.ledger.borrow_mut().turn_to(receiver.waiting, self.now());
         while sender.waits_for.get().is_some() {
             receiver.room.wait().await;
         }
@@ -172,8 +172,20 @@ impl<M: 'static> Node<M> {
         &self.shared.nodes[self.rank]
     }
 
+    /// Waits for a signal, which goes to `activity`.
+    pub(crate) async fn wait_in(&self, activity: Activity, signal: &Signal) {
+        self.state().ledger.borrow_mut().turn_to(activity, self.now());
+        signal.wait().await;
+        self.state().ledger.borrow_mut().turn_to(Activity::Idle, self.now());
+    }
+
+    /// The simulation that it runs in.
+    pub(crate) fn handle(&self) -> &Handle {
+        &self.shared.handle
+    }
+
     /// Time until `end` goes to `activity`, and what follows to idleness until further notice.
-    async fn busy(&self, activity: Activity, end: Time) {
+    pub(crate) async fn busy(&self, activity: Activity, end: Time) {
         self.state().ledger.borrow_mut().turn_to(activity, self.now());
         self.shared.handle.sleep_until(end).await;
         self.state().ledger.borrow_mut().turn_to(Activity::Idle, self.now());

@@ -81,6 +81,7 @@ impl Dimension {
                 ("KB/s", Times(1e3)),
                 ("MB/s", Times(1e6)),
                 ("GB/s", Times(1e9)),
+                ("Mbit/s", Times(125_000.0)),
             ],
             Dimension::Bytes => &[
                 ("B", Times(1.0)),
@@ -222,6 +223,7 @@ mod tests {
             ("1 s", Time, 1.0),
             ("2.5E-1 ms", Time, 0.25e-3),
             ("72 MB/s", Bandwidth, 72e6),
+            ("10 Mbit/s", Bandwidth, 1.25e6),
             ("4 KB", Bytes, 4_000.0),
             ("4 KiB", Bytes, 4_096.0),
             ("16 MB", Bytes, 16e6),

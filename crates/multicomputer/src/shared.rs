@@ -8,8 +8,9 @@ use std::rc::Rc;
 
 use desim::{Alarm, Handle, Signal, Time};
 
-use crate::account::{Ledger, NodeAccount};
+use crate::account::{Activity, Ledger, NodeAccount};
 use crate::buffers::{Buffers, FullBuffers, Rank};
+use crate::display::Display;
 use crate::machine::Machine;
 use crate::memory::Residence;
 use crate::message_layer::MessageLayer;
@@ -97,6 +98,8 @@ pub(crate) struct NodeState<M> {
     pub(crate) unposted: Cell<Unposted>,
     /// None if there is always room.
     pub(crate) buffers: Option<RefCell<Buffers<Waiting<M>>>>,
+    /// What a processor does that waits for room in them.
+    pub(crate) waiting: Activity,
     /// Those who waited for room here have it.
     pub(crate) room: Signal,
     /// In whose buffers the processor waits for room.
@@ -135,12 +138,15 @@ impl<M> NodeState<M> {
     pub(crate) fn new(
         handle: &Handle,
         machine: &Machine,
-        rank: Rank,
+        (rank, is_service): (Rank, bool),
         place: Place,
     ) -> NodeState<M> {
         let residence = machine.node_memory.as_ref().map(Residence::new);
-        let buffers =
-            machine.message_layer.buffer_bytes.map(|bytes| RefCell::new(Buffers::new(bytes)));
+        let display = machine.display.as_ref().filter(|_| is_service);
+        let (bytes, waiting) = match display.and_then(Display::room_for_mail) {
+            Some(bytes) => (Some(bytes), Activity::WaitForDisplay),
+            None => (machine.message_layer.buffer_bytes, Activity::WaitForRoom),
+        };
         NodeState {
             place,
             ledger: RefCell::default(),
@@ -150,7 +156,8 @@ impl<M> NodeState<M> {
             mail: Signal::new(handle, format!("mail at node {rank}")),
             posted: Cell::default(),
             unposted: Cell::default(),
-            buffers,
+            buffers: bytes.map(|bytes| RefCell::new(Buffers::new(bytes))),
+            waiting,
             room: Signal::new(handle, format!("room in the buffers of node {rank}")),
             waits_for: Cell::default(),
             coprocessor: RefCell::new(Coprocessor { jobs: VecDeque::new(), busy: false }),

@@ -9,6 +9,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Deserializer, Error, Unexpected, Visitor};
 use serde::{Deserialize, Serialize};
 
+use crate::fault::MachineFault;
 use crate::quantity::{self, Dimension};
 
 /// How a number is known.
@@ -78,6 +79,19 @@ impl Quantity<Time> {
     pub(crate) fn duration(&self) -> Duration {
         Duration::from_seconds_f64(self.si)
     }
+}
+
+/// A size in whole bytes, at least one; `place` is that of its field.
+pub(crate) fn whole_bytes(
+    place: &str,
+    size: &Sourced<Quantity<Bytes>>,
+) -> Result<u64, MachineFault> {
+    let found = size.value.si;
+    if (1.0..=1e15).contains(&found) && found.fract() == 0.0 {
+        return Ok(found as u64);
+    }
+    let message = format!("found {found} B; expected a whole number of bytes, at least 1");
+    Err(MachineFault::at(format!("{place}.value"), message))
 }
 
 impl<'de, M: Measure> Deserialize<'de> for Quantity<M> {

@@ -33,6 +33,54 @@ fn the_paragon() {
     assert_eq!(latency.to_string(), "42 µs");
 }
 
+/// Two places that speak of the same room say the same.
+#[test]
+fn message_buffers_agree() {
+    let text = fs::read_to_string(machines("paragon-gp16.json")).expect("the file is shipped");
+    let mut file: Value = serde_json::from_str(&text).expect("it is JSON");
+    let buffers = |value| json!({ "value": value, "provenance": "assumed", "source": "a test" });
+    file["message_layer"] = json!({ "buffers": buffers("1 MiB") });
+    assert_eq!(read(&file).unwrap().message_layer.buffer_bytes, Some(1 << 20));
+    file["message_layer"] = json!({ "buffers": buffers("64 KiB") });
+    assert_eq!(
+        message(&file),
+        "m.json: message_layer.buffers.value: found 65536 B; expected 1048576 B, as \
+         \"node_memory.message_buffers\" says"
+    );
+}
+
+#[test]
+fn the_display_and_the_disks() {
+    let text = fs::read_to_string(machines("paragon-display.json")).expect("the file is shipped");
+    let change: Value = serde_json::from_str(&text).expect("it is JSON");
+    let mut file = paragon();
+    for section in ["display", "start_up"] {
+        file[section] = change[section].clone();
+    }
+    let machine = read(&file).unwrap();
+    let display = machine.display.unwrap();
+    // The measured rates from which the service node's costs are derived: 28 KB/s and 108 KB/s.
+    assert!((display.rate(100) * 100.0 / 28e3 - 1.0).abs() < 0.01);
+    assert!((display.rate(1_500) * 1_500.0 / 108e3 - 1.0).abs() < 0.01);
+    assert_eq!(display.ethernet.bandwidth, 1.25e6);
+    assert_eq!(machine.start_up.unwrap().service(1 << 16).to_string(), "36.384 ms");
+
+    for (field, value, expected) in [
+        ("display.window", "0 B", "found 0 B; expected a whole number of bytes, at least 1"),
+        (
+            "display.ethernet.payload",
+            "0.5 B",
+            "found 0.5 B; expected a whole number of bytes, at least 1",
+        ),
+        ("start_up.request", "8 B", "found 8 B; expected at least 512 B"),
+    ] {
+        let pointer = format!("/{}/value", field.replace('.', "/"));
+        let mut wrong = file.clone();
+        *wrong.pointer_mut(&pointer).expect("the pointer meets a value") = json!(value);
+        assert_eq!(message(&wrong), format!("m.json: {field}.value: {expected}"));
+    }
+}
+
 /// The nodes of 16 MB are the same in all else.
 #[test]
 fn the_paragon_with_memory() {

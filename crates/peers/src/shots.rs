@@ -40,7 +40,7 @@ pub fn of_lights(problem: &Problem, lights: usize) -> Vec<Parcel> {
             let environment = &problem.environments[parcel.environment as usize];
             let Parcel { source, mask, .. } = &parcel;
             let shot = shoot(&problem.space, environment, &problem.hemisphere, source, mask);
-            queue.extend(problem.onward(&parcel, &shot));
+            queue.extend(problem.onward(&parcel, &shot, 1));
             shots.push(parcel);
         }
     }

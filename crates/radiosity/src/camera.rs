@@ -27,6 +27,18 @@ impl Camera {
         Camera::around(bounds, DVec3::new(-0.25, 0.9, -1.1), 1200, 800)
     }
 
+    /// Stands in a corner of the box, at an eye's height if it is so high, and looks across it.
+    pub fn inside(bounds: &Bounds) -> Camera {
+        const EYE: f64 = 1.7;
+        let at = |share: f64, height: f64| {
+            let floor = bounds.min + bounds.size() * DVec3::new(share, share, 0.0);
+            floor + DVec3::Z * height.min(0.6 * bounds.size().z)
+        };
+        let field_of_view_degrees = 60.0;
+        let (eye, target) = (at(0.05, EYE), at(0.95, 0.7 * EYE));
+        Camera { eye, target, field_of_view_degrees, ..Camera::overview(bounds) }
+    }
+
     /// Looks along a direction, so that the box just fills the picture; z is up.
     pub fn around(bounds: &Bounds, direction: DVec3, width: u32, height: u32) -> Camera {
         const FILLED: f64 = 0.96;

@@ -52,6 +52,11 @@ pub(crate) fn clip_to_slab(points: &[DVec3], direction: DVec3, low: f64, high: f
     clip(&above, |p| high - p.dot(direction), |p| p)
 }
 
+/// The part of a convex polygon where `height`, which is linear, is not negative.
+pub(crate) fn clip_to_half(points: &[DVec3], height: impl Fn(DVec3) -> f64) -> Vec<DVec3> {
+    clip(points, height, |p| p)
+}
+
 /// Area (m²) and centroid of a convex planar polygon; for one without area the mean of its points.
 pub(crate) fn area_and_centroid(points: &[DVec3]) -> (f64, DVec3) {
     let mean = points.iter().sum::<DVec3>() / points.len().max(1) as f64;

@@ -261,7 +261,7 @@ fn lies_behind(polygon: &Polygon, corners: &[DVec3], low: DVec3, high: DVec3) ->
 }
 
 /// Where the points begin along a unit direction, and over what length they reach.
-fn extent(points: &[DVec3], direction: DVec3) -> (f64, f64) {
+pub(crate) fn extent(points: &[DVec3], direction: DVec3) -> (f64, f64) {
     let along = points.iter().map(|p| p.dot(direction));
     let (low, high) =
         along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));

@@ -7,6 +7,7 @@ use thiserror::Error;
 
 use crate::bounds::Bounds;
 use crate::bundle::{Bundles, LANES, WIDTH};
+use crate::mask::Mask;
 
 /// How the pixels of a hemisphere are laid out.
 ///
@@ -102,6 +103,14 @@ impl Hemisphere {
     /// Number of pixels.
     pub fn pixels(&self) -> u32 {
         self.directions.len() as u32
+    }
+
+    /// Form factor of all true pixels of a mask.
+    pub fn form_factor(&self, mask: &Mask) -> f64 {
+        match &self.sums {
+            Some(sums) => sums[mask.count() as usize],
+            None => mask.ones().map(|pixel| self.weights[pixel as usize]).sum(),
+        }
     }
 
     /// Tangent, bitangent and normal over a source with its centre at `centre`. Whoever knows the

@@ -9,6 +9,7 @@ use glam::{DVec3, Vec3};
 use crate::camera::Camera;
 use crate::canvas::Canvas;
 use crate::scene::{Rgb, Scene};
+use crate::tone::{Exposure, Tone, geometric_mean, srgb};
 
 /// Samples along a pixel's side.
 const FINENESS: usize = 2;
@@ -19,27 +20,19 @@ const LARGEST: u32 = 8192;
 /// Brightness where nothing is seen, of 1.
 const BACKGROUND: Rgb = Rgb::splat(0.012);
 
-/// How radiosity becomes brightness.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Exposure {
-    /// The geometric mean of what is seen becomes middle grey.
-    #[default]
-    Auto,
-    /// This radiosity, W/m², becomes middle grey.
-    MiddleGrey(f64),
-}
-
 /// What is shown, and how bright.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PictureOptions {
     /// How radiosity becomes brightness.
     pub exposure: Exposure,
+    /// How brightness nears white.
+    pub tone: Tone,
     /// Leaves out everything above this height (z, local, metres): a look into one floor.
     pub cut_above: Option<f64>,
 }
 
 /// An RGB picture, eight bits a colour, sRGB.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
     /// Pixels in a row.
     pub width: u32,
@@ -47,6 +40,8 @@ pub struct Picture {
     pub height: u32,
     /// Three bytes a pixel, rows from the top, from the left.
     pub rgb: Vec<u8>,
+    /// The radiosity that became middle grey, W/m².
+    pub middle_grey: f64,
 }
 
 /// A picture of a size that cannot be made.
@@ -79,68 +74,34 @@ pub fn render(
         .seen()
         .map(|seen| seen.map(|(polygon, point)| colour(polygon, point).as_vec3()))
         .collect();
-    let middle = match options.exposure {
-        Exposure::Auto => geometric_mean(&samples),
+    let middle_grey = match options.exposure {
+        Exposure::Auto => {
+            geometric_mean(&samples.iter().flatten().map(|rgb| (rgb.as_dvec3(), 1.0)))
+        }
         Exposure::MiddleGrey(radiosity) => radiosity,
     };
-    Ok(Picture { width, height, rgb: develop(&samples, width as usize, middle) })
+    let shown = |rgb: Vec3| options.tone.map(rgb.as_dvec3() / middle_grey);
+    let rgb = develop(&samples, width as usize, shown);
+    Ok(Picture { width, height, rgb, middle_grey })
 }
 
 /// Radiosity seen at a sample, if anything is.
 type Sample = Option<Vec3>;
 
-/// Middle grey of what is seen, W/m². What is all but black counts for a twentieth of the
-/// mean, or rooms not lit yet would turn the others white.
-fn geometric_mean(samples: &[Sample]) -> f64 {
-    let seen = || samples.iter().flatten().map(|rgb| luminance(rgb.as_dvec3()));
-    let count = seen().count().max(1) as f64;
-    let least = 0.05 * seen().sum::<f64>() / count;
-    if least > 0.0 {
-        libm::exp(seen().map(|l| libm::log(l.max(least))).sum::<f64>() / count)
-    } else {
-        1.0
-    }
-}
-
-/// Brightness to the eye (ITU-R BT.709).
-fn luminance(rgb: Rgb) -> f64 {
-    rgb.dot(Rgb::new(0.2126, 0.7152, 0.0722))
-}
-
 /// Averages the samples of each pixel and encodes them.
-fn develop(samples: &[Sample], width: usize, middle: f64) -> Vec<u8> {
+fn develop(samples: &[Sample], width: usize, shown: impl Fn(Vec3) -> Rgb) -> Vec<u8> {
     let mut rgb = Vec::with_capacity(3 * samples.len() / (FINENESS * FINENESS));
     for rows in samples.chunks_exact(width * FINENESS * FINENESS) {
         for column in 0..width {
             let pixel: Rgb = rows
                 .chunks_exact(width * FINENESS)
                 .flat_map(|row| &row[column * FINENESS..][..FINENESS])
-                .map(|sample| sample.map_or(BACKGROUND, |rgb| tone(rgb.as_dvec3() / middle)))
+                .map(|sample| sample.map_or(BACKGROUND, &shown))
                 .sum();
             rgb.extend((pixel / (FINENESS * FINENESS) as f64).to_array().map(srgb));
         }
     }
     rgb
-}
-
-/// From radiosity over middle grey to the screen's 0..1: Reinhard et al. 2002, equation 4, on the
-/// luminance, so that colours stay what they are. Six times middle grey is white.
-fn tone(relative: Rgb) -> Rgb {
-    const KEY: f64 = 0.35;
-    const WHITE: f64 = KEY * 6.0;
-    let light = luminance(relative) * KEY;
-    let scale = KEY * (1.0 + light / (WHITE * WHITE)) / (1.0 + light);
-    (relative * scale).clamp(Rgb::ZERO, Rgb::ONE)
-}
-
-/// sRGB's transfer function, in eight bits.
-fn srgb(linear: f64) -> u8 {
-    let encoded = if linear <= 0.003_130_8 {
-        12.92 * linear
-    } else {
-        1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055
-    };
-    (encoded * 255.0 + 0.5) as u8
 }
 
 /// Colours for a scene that is not solved: lights glow, all else is lit from above and the sides,

@@ -26,6 +26,20 @@ pub struct Solution {
     pub error: Vec<Rgb>,
 }
 
+impl Solution {
+    /// Its error over what is reflected, radiosity less emission, both as area-weighted root mean
+    /// squares over all patches and colours.
+    pub fn relative_l2_error(&self, patches: &Patches) -> f64 {
+        let squares = |colours: &mut dyn Iterator<Item = Rgb>| -> f64 {
+            colours.zip(&patches.areas).map(|(c, area)| c.length_squared() * area).sum()
+        };
+        let both = self.radiosity.iter().zip(&patches.emission);
+        let light = squares(&mut both.map(|(&leaving, &emitted)| leaving - emitted));
+        let error = squares(&mut self.error.iter().copied());
+        if light > 0.0 { (error / light).sqrt() } else { 0.0 }
+    }
+}
+
 impl Dense {
     /// Form factors whose errors add up to some `tolerance` a patch, more where most cells of the
     /// quadrature did not suffice; `done` hears of each patch that ends.

@@ -7,6 +7,7 @@ pub mod closed_form;
 mod conjugate;
 mod cubature;
 mod dense;
+mod difference;
 mod element;
 mod gauss;
 mod objects;
@@ -21,6 +22,7 @@ mod stored;
 
 pub use cubature::{Estimate, Tolerance};
 pub use dense::{Dense, Solution};
+pub use difference::{Difference, Overlaps};
 pub use element::element_to_polygon;
 pub use objects::Objects;
 pub use pair::{Pair, Surface};

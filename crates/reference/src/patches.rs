@@ -21,22 +21,29 @@ pub struct Patches {
 impl Patches {
     /// The patches of an environment, which is to be all of the space.
     pub fn new(space: &Space, environment: &LocalEnvironment) -> Patches {
+        Patches::of_all(space, std::slice::from_ref(environment))
+    }
+
+    /// The patches of environments, which are to be all of the space among them, one after the other.
+    pub fn of_all(space: &Space, environments: &[LocalEnvironment]) -> Patches {
         let polygon = |patch: &radiosity::Patch| &space.scene.polygons[patch.polygon as usize];
-        let patches = || environment.patches.iter();
+        let patches = || environments.iter().flat_map(|environment| &environment.patches);
         // What is smaller than a point counts for nothing: rounding alone would decide what it sees.
         let least = space.scene.tolerance().powi(2);
         let area = |patch: &radiosity::Patch| if patch.area > least { patch.area } else { 0.0 };
-        let surface = |(number, patch): (u32, &radiosity::Patch)| Surface {
-            corners: if area(patch) > 0.0 {
-                environment.outline(space, number)
-            } else {
-                Vec::new()
-            },
-            plane: polygon(patch).plane,
-            polygon: patch.polygon,
-        };
+        let surfaces = environments.iter().flat_map(|environment| {
+            (0..).zip(&environment.patches).map(move |(number, patch)| Surface {
+                corners: if area(patch) > 0.0 {
+                    environment.outline(space, number)
+                } else {
+                    Vec::new()
+                },
+                plane: polygon(patch).plane,
+                polygon: patch.polygon,
+            })
+        });
         Patches {
-            surfaces: (0..).zip(patches()).map(surface).collect(),
+            surfaces: surfaces.collect(),
             areas: patches().map(area).collect(),
             reflectance: patches().map(|p| space.scene.material(polygon(p)).reflectance).collect(),
             emission: patches().map(|p| space.scene.material(polygon(p)).emission).collect(),

@@ -64,15 +64,9 @@ impl Reference {
     /// A solution of a subject, on the patches that it is of.
     pub fn new(subject: Subject, patches: &Patches, solution: &Solution) -> Reference {
         let arrays = |colours: &[radiosity::Rgb]| colours.iter().map(|c| c.to_array()).collect();
-        let squares = |colours: &mut dyn Iterator<Item = radiosity::Rgb>| -> f64 {
-            colours.zip(&patches.areas).map(|(c, area)| c.length_squared() * area).sum()
-        };
-        let both = solution.radiosity.iter().zip(&patches.emission);
-        let light = squares(&mut both.map(|(&leaving, &emitted)| leaving - emitted));
-        let error = squares(&mut solution.error.iter().copied());
         Reference {
             subject,
-            relative_l2_error: if light > 0.0 { (error / light).sqrt() } else { 0.0 },
+            relative_l2_error: solution.relative_l2_error(patches),
             radiosity: arrays(&solution.radiosity),
             error: arrays(&solution.error),
         }

@@ -21,6 +21,8 @@ pub struct ComputeNode {
     pub(crate) shared: Arc<Shared>,
     pub(crate) region: Region,
     queue: Queue,
+    /// What is still to be shot of the patch that was selected last, the last part first.
+    parts: Vec<Parcel>,
     ring: Ring,
     /// Until the service node says to stop selecting local patches.
     selecting: bool,
@@ -54,7 +56,9 @@ impl Shared {
         self.kept.helpers().add(Box::new(move || {
             let Shared { problem, kept, .. } = &*shared;
             kept.cast_ahead(problem, &parcel, |shot| {
-                problem.onward(&parcel, shot).for_each(|parcel| shared.foresee(&parcel));
+                let pixels_a_bit = shared.rules.shooting.pixels_a_bit;
+                let onward = problem.onward(&parcel, shot, pixels_a_bit);
+                onward.for_each(|parcel| shared.foresee(&parcel));
             });
         }));
     }
@@ -99,6 +103,7 @@ impl ComputeNode {
             shared: Arc::clone(shared),
             region,
             queue: Queue::default(),
+            parts: Vec::new(),
             ring: Ring::new(rank, shared.processors),
             selecting: true,
             done: false,
@@ -116,8 +121,13 @@ impl ComputeNode {
         process.keep(footprint::PROGRAM, || Footprint::of_the_program(problem));
     }
 
-    /// §4.2.2: the greatest source, from the region or from the queue.
+    /// §4.2.2: the greatest source, from the region or from the queue; a patch that is cut into
+    /// several sources shoots them one after the other.
     async fn choose_best_source(&mut self, process: &impl Process) -> Option<Parcel> {
+        if let Some(part) = self.parts.pop() {
+            self.tally.counts.local_shots += 1;
+            return Some(part);
+        }
         let rules = &self.shared.rules;
         let received = self.queue.best(rules.selection);
         // Choice C25: the list of queued sources is searched through, and each lies in its own pages.
@@ -140,7 +150,9 @@ impl ComputeNode {
             }
             (_, Some((_, holding, patch))) => {
                 self.tally.counts.local_shots += 1;
-                Some(self.region.take(holding, patch))
+                self.parts = self.region.take(holding, patch);
+                self.parts.reverse();
+                self.parts.pop()
             }
             (None, None) => None,
         };
@@ -194,7 +206,8 @@ impl ComputeNode {
         shot: &Shot,
     ) {
         let shared = Arc::clone(&self.shared);
-        for onward in shared.problem.onward(parcel, shot) {
+        let pixels_a_bit = shared.rules.shooting.pixels_a_bit;
+        for onward in shared.problem.onward(parcel, shot, pixels_a_bit) {
             shared.foresee(&onward);
             self.tally.parcels_sent += 1;
             self.tally.sent += onward.source.power * onward.form_factor;
@@ -279,9 +292,10 @@ impl ComputeNode {
     }
 
     fn sums(&mut self, rank: Rank) -> Sums {
+        let in_parts: radiosity::Rgb = self.parts.iter().map(|part| part.source.power).sum();
         Sums {
             rank: rank as u32,
-            unshot: self.region.unshot_power().element_sum(),
+            unshot: (self.region.unshot_power() + in_parts).element_sum(),
             sent: self.tally.sent.element_sum(),
             taken: self.tally.taken.element_sum(),
         }

@@ -22,7 +22,7 @@ pub enum Thing {
     Patch,
     /// Geometry and photometry of a queued source.
     Source,
-    /// 32 pixels of its mask.
+    /// 32 bits of its mask.
     MaskWord,
 }
 
@@ -90,7 +90,8 @@ impl Footprint {
 
     /// A source that waits in a queue.
     pub(crate) fn of_source(parcel: &Parcel) -> Footprint {
-        let words = parcel.mask.pixels().div_ceil(32) as usize;
+        let bits = parcel.mask.pixels().div_ceil(parcel.mask.pixels_a_bit());
+        let words = bits.div_ceil(32) as usize;
         Footprint::default().with(Thing::Source, 1).with(Thing::MaskWord, words)
     }
 

@@ -12,7 +12,7 @@ use multicomputer::{Machine, Network, Rank};
 use radiosity::{Light, Rgb, Shot};
 
 use crate::message::Parcel;
-use crate::observer::Observer;
+use crate::observer::{Observer, SharedObserver};
 use crate::outcome::{EnergyLedger, Outcome};
 use crate::problem::Problem;
 use crate::run::{Run, RunError};
@@ -94,7 +94,7 @@ pub fn visit_instants(
     visit: impl FnMut(Instant<'_>) + 'static,
 ) -> Result<Outcome, RunError> {
     let follower = Rc::new(RefCell::new(Follower::new(&run.problem, times, visit)));
-    let observer: Rc<RefCell<dyn Observer>> = follower.clone();
+    let observer: SharedObserver = follower.clone();
     let outcome = simulate_observed(run, machine, network, Some(observer))?;
     let mut follower = follower.borrow_mut();
     while !follower.times.is_empty() {

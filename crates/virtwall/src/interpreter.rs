@@ -1,20 +1,18 @@
 //! Says of what a machine does what it is for.
 
-use std::cell::RefCell;
 use std::collections::VecDeque;
-use std::rc::Rc;
 
 use desim::Time;
 use multicomputer::{self as machine, MachineObserver, Rank, Sent, Stall};
 use radiosity::{Rgb, Shot};
 
 use crate::message::{MessageKind, Parcel};
-use crate::observer::{Activity, Observer, SentMessage};
+use crate::observer::{Activity, Observer, SentMessage, SharedObserver};
 
 /// Stands between a machine, whose nodes compute and send, and an observer, who is told of shots and
 /// sources.
 pub(crate) struct Interpreter {
-    observer: Rc<RefCell<dyn Observer>>,
+    observer: SharedObserver,
     /// By rank.
     nodes: Vec<Purpose>,
 }
@@ -28,7 +26,7 @@ struct Purpose {
 }
 
 impl Interpreter {
-    pub(crate) fn new(observer: Rc<RefCell<dyn Observer>>, ranks: usize) -> Interpreter {
+    pub(crate) fn new(observer: SharedObserver, ranks: usize) -> Interpreter {
         let purpose = || Purpose {
             kernel: Activity::Selection,
             sends: MessageKind::Source,
@@ -56,6 +54,8 @@ impl MachineObserver<Vec<u8>> for Interpreter {
             machine::Activity::Pack => Activity::Pack,
             machine::Activity::Copy => Activity::Copy,
             machine::Activity::WaitForRoom => Activity::WaitForRoom,
+            machine::Activity::Forward => Activity::Forward,
+            machine::Activity::WaitForDisplay => Activity::WaitForDisplay,
             machine::Activity::Idle => Activity::Wait,
         };
         self.observer.borrow_mut().activity(rank, activity, from, to);

@@ -129,7 +129,8 @@ impl Message {
         let mut to = Vec::new();
         match self {
             Message::Source(parcel) => {
-                to.reserve(160 + parcel.mask.words().len() * 8);
+                let bits = parcel.mask.pixels() / parcel.mask.pixels_a_bit();
+                to.reserve(160 + bits as usize / 8);
                 to.push(0);
                 encode_parcel(parcel, &mut to);
             }
@@ -189,15 +190,20 @@ impl Message {
     }
 }
 
+/// Bits of a message that hold the number of pixels; [`radiosity::MOST_PIXELS`] fits them.
+const PIXEL_BITS: u32 = 25;
+
 fn encode_parcel(parcel: &Parcel, to: &mut Vec<u8>) {
     let Parcel { environment, source, mask, form_factor } = parcel;
-    let numbers = [*environment, source.environment, source.patch, source.polygon, mask.pixels()];
+    // Pixels take 25 bits; above them stands how many share a bit.
+    let pixels = mask.pixels() | mask.pixels_a_bit().trailing_zeros() << PIXEL_BITS;
+    let numbers = [*environment, source.environment, source.patch, source.polygon, pixels];
     numbers.iter().for_each(|n| to.extend(n.to_le_bytes()));
     for vector in [source.centre, source.normal, source.power, source.radiosity] {
         vector.to_array().iter().for_each(|x| to.extend(x.to_le_bytes()));
     }
     to.extend(form_factor.to_le_bytes());
-    mask.words().iter().for_each(|word| to.extend(word.to_le_bytes()));
+    mask.travelling().iter().for_each(|word| to.extend(word.to_le_bytes()));
 }
 
 fn decode_parcel(from: &mut Reader) -> Result<Parcel, DecodeError> {
@@ -215,7 +221,8 @@ fn decode_parcel(from: &mut Reader) -> Result<Parcel, DecodeError> {
     let form_factor = from.f64()?;
     let words = std::mem::take(&mut from.0);
     let words = words.chunks(8).map(|chunk| Reader(chunk).take().map(u64::from_le_bytes));
-    let mask = Mask::from_words(words.collect::<Result<_, _>>()?, pixels)
+    let (pixels, logarithm) = (pixels & ((1 << PIXEL_BITS) - 1), pixels >> PIXEL_BITS);
+    let mask = Mask::arrived(words.collect::<Result<_, _>>()?, pixels, 1 << logarithm)
         .ok_or(DecodeError("mask and pixels differ"))?;
     Ok(Parcel { environment, source, mask, form_factor })
 }

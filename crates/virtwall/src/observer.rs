@@ -1,5 +1,8 @@
 //! Who is told what happens in a simulated run, as it happens.
 
+use std::cell::RefCell;
+use std::rc::Rc;
+
 use desim::{Duration, Time};
 use multicomputer::{Rank, Stall};
 use radiosity::{Rgb, Shot};
@@ -34,6 +37,9 @@ pub trait Observer {
     /// So many sources wait in a node's queue from now on.
     fn queue(&mut self, _now: Time, _rank: Rank, _length: usize) {}
 }
+
+/// An observer that a run tells, and that is looked at when the run is over.
+pub type SharedObserver = Rc<RefCell<dyn Observer>>;
 
 /// A message as it goes onto the network.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,6 +77,10 @@ pub enum Activity {
     WaitForRoom,
     /// It waits for pages that were not in memory.
     Paging,
+    /// It sends updates on to the display.
+    Forward,
+    /// It waits for room on the way to the display.
+    WaitForDisplay,
     /// It waits for something to arrive.
     Wait,
 }
@@ -88,6 +98,8 @@ impl Activity {
             Activity::Copy => "copy",
             Activity::WaitForRoom => "wait for room",
             Activity::Paging => "paging",
+            Activity::Forward => "forward",
+            Activity::WaitForDisplay => "wait for display",
             Activity::Wait => "wait",
         }
     }

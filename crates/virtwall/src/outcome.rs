@@ -4,8 +4,10 @@ use desim::{Duration, Time};
 use multicomputer::LayerAccount;
 use radiosity::{Rgb, Work};
 
+use crate::ambient;
 use crate::compute_node::ComputeNode;
 use crate::counts::Counts;
+use crate::display::DisplayReport;
 
 /// What a run found: time, counts, energy, light.
 #[derive(Clone, Debug)]
@@ -25,7 +27,9 @@ pub struct Outcome {
     pub work: Work,
     /// What each compute node did, by rank.
     pub nodes: Vec<NodeReport>,
-    /// Radiosity in W/m², by environment and patch.
+    /// What became of the updates for the display, where one is modelled.
+    pub display: Option<DisplayReport>,
+    /// Radiosity in W/m², by environment and patch, with the ambient term if the rules say so.
     pub radiosity: Vec<Vec<Rgb>>,
 }
 
@@ -76,7 +80,7 @@ pub struct NodeReport {
     pub compute: Duration,
     /// The part of it in which they waited for what was not in the processor's caches.
     pub missing: Duration,
-    /// Time in sending and receiving, waits for room in buffers included.
+    /// Time in sending and receiving, waits for room included.
     pub overhead: Duration,
     /// Time spent waiting for pages that were not in memory.
     pub paging: Duration,
@@ -118,6 +122,9 @@ impl Outcome {
             report.local_shots = node.tally.counts.local_shots;
             report.received_shots = node.tally.counts.received_shots;
         }
+        if nodes[0].shared.rules.shooting.ambient {
+            ambient::add(problem, energy.unshot + energy.in_transit, &mut radiosity);
+        }
         Outcome {
             time,
             counts,
@@ -128,6 +135,7 @@ impl Outcome {
             },
             work,
             nodes: reports,
+            display: None,
             radiosity,
         }
     }

@@ -1,6 +1,6 @@
 //! A scene made ready: meshed, cut into environments, with its hemisphere.
 
-use radiosity::{Hemisphere, LocalEnvironment, PatchSize, Rgb, Scene, Shot, Side, Space};
+use radiosity::{Hemisphere, LocalEnvironment, Outgoing, PatchSize, Rgb, Scene, Shot, Side, Space};
 use thiserror::Error;
 
 use crate::decomposition::Decomposition;
@@ -84,16 +84,30 @@ impl Problem {
     }
 
     /// A source with what is left of its mask, for each neighbour that it enters (§4.2.3).
-    pub fn onward(&self, parcel: &Parcel, shot: &Shot) -> impl Iterator<Item = Parcel> {
+    pub fn onward(
+        &self,
+        parcel: &Parcel,
+        shot: &Shot,
+        pixels_a_bit: u32,
+    ) -> impl Iterator<Item = Parcel> {
         let (from, source) = (parcel.environment, parcel.source);
         Side::ALL.into_iter().zip(&shot.outgoing).filter_map(move |(side, outgoing)| {
-            outgoing.as_ref().map(|outgoing| Parcel {
-                environment: self.decomposition.neighbour(from, side),
-                source,
-                mask: outgoing.mask.clone(),
-                form_factor: outgoing.form_factor,
-            })
+            let Outgoing { mask, form_factor } = outgoing.clone()?;
+            let environment = self.decomposition.neighbour(from, side);
+            let parcel = Parcel { environment, source, mask, form_factor };
+            Some(if pixels_a_bit == 1 { parcel } else { self.coarsened(parcel, pixels_a_bit) })
         })
+    }
+
+    /// A parcel whose mask has a bit for so many pixels, and as much energy as before.
+    fn coarsened(&self, mut parcel: Parcel, pixels_a_bit: u32) -> Parcel {
+        parcel.mask = parcel.mask.coarsened(pixels_a_bit);
+        let form_factor = self.hemisphere.form_factor(&parcel.mask);
+        if form_factor > 0.0 {
+            parcel.source.power *= parcel.form_factor / form_factor;
+            parcel.form_factor = form_factor;
+        }
+        parcel
     }
 
     /// Power that the scene emits, W.

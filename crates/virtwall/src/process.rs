@@ -43,6 +43,20 @@ pub trait Process {
     /// The same, but not beyond `time`; whether something has arrived.
     async fn wait_until(&self, time: Time) -> bool;
 
+    /// Puts an update into the queue for the display. As with the two that follow, a process behind
+    /// which no display is modelled takes no notice.
+    fn queue_for_display(&self, _update: &[u8]) {}
+
+    /// Whether there is to be more in that queue before the next one is sent.
+    fn wants_updates(&self) -> bool {
+        false
+    }
+
+    /// Sends the next queued update to the display; false if there is none.
+    async fn socket_send(&self) -> bool {
+        false
+    }
+
     /// The time since the program began.
     fn now(&self) -> Time;
 

@@ -4,16 +4,20 @@ use std::collections::BTreeSet;
 use std::mem;
 use std::sync::Arc;
 
-use radiosity::{Greatest, Light, LocalEnvironment, Mask, Operation, Rgb, Shot, Work};
+use radiosity::{
+    Greatest, Light, LocalEnvironment, Mask, Operation, Part, Rgb, Shot, Source, Work,
+};
 
 use crate::message::{Parcel, PatchUpdate};
 use crate::problem::Problem;
-use crate::rules::Selection;
+use crate::rules::{Rules, Selection};
+use crate::shooting::{Shooting, SourceSplit};
 
 /// What one processor owns of the scene.
 pub struct Region {
     problem: Arc<Problem>,
     selection: Selection,
+    shooting: Shooting,
     /// Local patches below this value are not selected.
     threshold: f64,
     holdings: Vec<Holding>,
@@ -48,9 +52,10 @@ impl Region {
     pub(crate) fn new(
         problem: &Arc<Problem>,
         environments: impl Iterator<Item = u32>,
-        selection: Selection,
+        rules: &Rules,
         threshold: f64,
     ) -> Region {
+        let Rules { selection, shooting, .. } = *rules;
         let hold = |environment: u32| {
             let geometry = &problem.environments[environment as usize];
             let light = Light::new(&problem.space, geometry);
@@ -62,6 +67,7 @@ impl Region {
         Region {
             problem: Arc::clone(problem),
             selection,
+            shooting,
             threshold,
             bests: Greatest::new(holdings.iter().map(Holding::best_value)),
             changed: (0..holdings.len()).collect(),
@@ -94,7 +100,7 @@ impl Region {
             let best = held.values.best().filter(|&(value, _)| value >= self.threshold);
             let best = best.map(|(_, patch)| patch);
             if let (true, Some(patch)) = (mem::replace(&mut held.best, best) != best, best) {
-                tell(self.parcel(i, patch));
+                self.parcels(i, patch).into_iter().for_each(&mut tell);
             }
         }
     }
@@ -120,24 +126,46 @@ impl Region {
         work
     }
 
-    /// Take a patch's unshot power as a source with an all-true mask (Figure 2).
-    pub(crate) fn take(&mut self, holding: usize, patch: u32) -> Parcel {
-        let parcel = self.parcel(holding, patch);
+    /// Take a patch's unshot power as a source with an all-true mask (Figure 2), or as several.
+    pub(crate) fn take(&mut self, holding: usize, patch: u32) -> Vec<Parcel> {
+        let parcels = self.parcels(holding, patch);
+        let share = self.share(holding, patch);
         let held = &mut self.holdings[holding];
-        held.light.unshot[patch as usize] = Rgb::ZERO;
-        held.values.set(patch, 0.0);
+        let unshot = &mut held.light.unshot[patch as usize];
+        // Over-shot, it has less than nothing left.
+        *unshot *= 1.0 - share;
+        let geometry = &self.problem.environments[held.environment as usize];
+        let value = value(self.selection, geometry, &held.light, patch);
+        held.values.set(patch, value);
         self.note_change(holding);
-        parcel
+        parcels
     }
 
-    /// The source that a patch would be now.
-    pub(crate) fn parcel(&self, holding: usize, patch: u32) -> Parcel {
-        let problem = &self.problem;
+    /// The part of its unshot power that a patch shoots.
+    fn share(&self, holding: usize, patch: u32) -> f64 {
+        let geometry = &self.problem.environments[self.holdings[holding].environment as usize];
+        self.shooting.share(geometry.emitted_power(&self.problem.space, patch))
+    }
+
+    /// The source that a patch would be now, or several where it is to be cut.
+    fn parcels(&self, holding: usize, patch: u32) -> Vec<Parcel> {
+        let Problem { space, environments, hemisphere, .. } = &*self.problem;
         let Holding { environment, light, .. } = &self.holdings[holding];
-        let geometry = &problem.environments[*environment as usize];
-        let source = light.source(&problem.space, geometry, *environment, patch);
-        let mask = Mask::all(problem.hemisphere.pixels());
-        Parcel { environment: *environment, source, mask, form_factor: 1.0 }
+        let geometry = &environments[*environment as usize];
+        let mut source = light.source(space, geometry, *environment, patch);
+        source.power *= self.share(holding, patch);
+        let SourceSplit { nearer_than, most } = self.shooting.split;
+        let along = match nearer_than.is_finite() {
+            true => geometry.parts_needed(space, patch, nearer_than, most),
+            false => most,
+        };
+        let parcel = |part: Part| Parcel {
+            environment: *environment,
+            source: Source { centre: part.centre, power: source.power * part.share, ..source },
+            mask: Mask::all(hemisphere.pixels()),
+            form_factor: 1.0,
+        };
+        geometry.parts(space, patch, along).into_iter().map(parcel).collect()
     }
 
     /// Update the radiosities of the environment in which a source was shot. Returns the power that

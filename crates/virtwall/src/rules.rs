@@ -4,6 +4,7 @@ use desim::Duration;
 use radiosity::{Rgb, Source};
 
 use crate::decomposition::Mapping;
+use crate::shooting::Shooting;
 
 /// Rules that every compute node follows.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,6 +36,8 @@ pub struct Rules {
     pub merge_masks: bool,
     /// Which processor gets which environments.
     pub mapping: Mapping,
+    /// How a patch is shot.
+    pub shooting: Shooting,
 }
 
 /// What makes a source the best.
@@ -49,7 +52,8 @@ pub enum Selection {
 }
 
 impl Selection {
-    /// The value by which sources are compared: the sum of the three colours.
+    /// The value by which sources are compared: the sum of the three colours, which is negative only
+    /// where a patch was over-shot, and then counts as much.
     pub fn value(self, source: &Source) -> f64 {
         self.value_of(source.power, source.radiosity)
     }
@@ -57,8 +61,8 @@ impl Selection {
     /// The same for a patch that was not selected yet.
     pub fn value_of(self, power: Rgb, radiosity: Rgb) -> f64 {
         match self {
-            Selection::Energy => power.element_sum(),
-            Selection::DeltaRadiosity => radiosity.element_sum(),
+            Selection::Energy => power.abs().element_sum(),
+            Selection::DeltaRadiosity => radiosity.abs().element_sum(),
         }
     }
 }

@@ -14,6 +14,7 @@ use crate::problem::Problem;
 use crate::region::Region;
 use crate::rules::Rules;
 use crate::service_node::Collection;
+use crate::start_up::Step;
 
 /// What is to be run.
 #[derive(Clone)]
@@ -50,6 +51,9 @@ pub enum RunError {
     /// The machine file does not size a thing.
     #[error("the machine's memory has no size for \"{}\"; expected bytes under that name", .0.name())]
     Size(Thing),
+    /// The machine file does not price a step of the initialisation.
+    #[error("the machine's start-up has no price for \"{}\"; expected cycles under that name", .0.name())]
+    Step(Step),
     /// Every process waits and nothing is under way.
     #[error(transparent)]
     Stalled(#[from] Stalled),
@@ -72,7 +76,7 @@ impl Run {
                 .zip(&owners)
                 .filter(move |&(_, &owner)| rank.is_none_or(|rank| owner == rank));
             let mine = mine.map(|(environment, _)| environment);
-            Region::new(&self.problem, mine, self.rules.selection, threshold)
+            Region::new(&self.problem, mine, &self.rules, threshold)
         };
         let brightest = region(None, 0.0).best_patch().map_or(0.0, |(value, ..)| value);
         let threshold = brightest * self.rules.patch_threshold;

@@ -1,4 +1,5 @@
-//! The program of the service node: Figure 6 of RR-3008, and the collection of §4.2.4.
+//! The program of the service node: Figure 6 of RR-3008, with the way to the display, and the
+//! collection of §4.2.4.
 
 use desim::{Duration, Time};
 
@@ -69,14 +70,26 @@ impl Answers {
         }
     }
 
-    /// Read what has arrived. Radiosity updates would go on to the display from here.
+    /// Read what has arrived, and send radiosity updates on to the display.
+    ///
+    /// A service node that drowns in them collects late.
     async fn receive(&mut self, process: &impl Process) {
+        self.read(process).await;
+        while process.socket_send().await {
+            if process.wants_updates() {
+                self.read(process).await;
+            }
+        }
+    }
+
+    async fn read(&mut self, process: &impl Process) {
         for bytes in process.received().await {
             match Message::decode(&bytes) {
                 Ok(Message::Sums(sums)) => {
                     let earlier = self.sums[sums.rank as usize].replace(sums);
                     self.missing -= usize::from(earlier.is_none());
                 }
+                Ok(Message::Update(_)) => process.queue_for_display(&bytes),
                 Ok(Message::Done) => self.done = true,
                 _ => {}
             }

@@ -1,12 +1,12 @@
 //! What decides a shot of a problem.
 
-use radiosity::Mask;
+use radiosity::{Mask, Source};
 use xxhash_rust::xxh3::Xxh3Default;
 
 use crate::message::Parcel;
 
-/// What decides a shot of a problem: environment, source and mask. The mask stands here by a 128-bit
-/// digest: among 10⁹ masks two share theirs with a probability below 10⁻²⁰.
+/// What decides a shot of a problem: environment, source and mask. The mask, and where its rays start,
+/// stand here by a 128-bit digest: among 10⁹ of them two share theirs with a probability below 10⁻²⁰.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct ShotKey {
     environment: u32,
@@ -25,7 +25,7 @@ impl ShotKey {
             environment: *environment,
             source_environment: source.environment,
             patch: source.patch,
-            mask: digest(mask),
+            mask: digest(source, mask),
         }
     }
 
@@ -52,8 +52,9 @@ impl ShotKey {
     }
 }
 
-fn digest(mask: &Mask) -> u128 {
+fn digest(source: &Source, mask: &Mask) -> u128 {
     let mut hasher = Xxh3Default::new();
+    source.centre.to_array().iter().for_each(|x| hasher.update(&x.to_bits().to_le_bytes()));
     for words in mask.words().chunks(64) {
         let mut bytes = [0; 512];
         for (place, word) in bytes.chunks_exact_mut(8).zip(words) {

@@ -5,15 +5,16 @@ use std::rc::Rc;
 
 use desim::{Duration, Simulation, Time};
 use multicomputer::{
-    Machine, MachineObserver, Multicomputer, Network, Node, NodeMemory, Rank, Segment,
+    Machine, MachineObserver, Multicomputer, Network, Node, NodeMemory, Rank, Segment, Socket,
 };
 use radiosity::{Operation, Work};
 
 use crate::compute_node::compute_node;
+use crate::display::DisplayReport;
 use crate::footprint::{Footprint, Thing};
 use crate::interpreter::Interpreter;
 use crate::message::Parcel;
-use crate::observer::Observer;
+use crate::observer::{Observer, SharedObserver};
 use crate::outcome::{NodeReport, Outcome};
 use crate::process::Process;
 use crate::run::{Run, RunError};
@@ -47,6 +48,8 @@ struct SimulatedProcess {
     /// What the processor's caches hold, if it has any.
     storage: Option<RefCell<Storage>>,
     interpreter: Option<Rc<RefCell<Interpreter>>>,
+    /// To the display; the service node's.
+    socket: Option<Rc<Socket<Vec<u8>>>>,
 }
 
 impl SimulatedProcess {
@@ -109,6 +112,21 @@ impl Process for SimulatedProcess {
         self.node.wait_until(time).await
     }
 
+    fn queue_for_display(&self, update: &[u8]) {
+        self.socket.iter().for_each(|socket| socket.queue(update.len() as u64));
+    }
+
+    fn wants_updates(&self) -> bool {
+        self.socket.as_ref().is_some_and(|socket| socket.wants_more())
+    }
+
+    async fn socket_send(&self) -> bool {
+        match &self.socket {
+            Some(socket) => socket.send().await,
+            None => false,
+        }
+    }
+
     fn now(&self) -> Time {
         self.node.now()
     }
@@ -139,7 +157,7 @@ pub fn simulate_observed(
     run: &Run,
     machine: &Machine,
     network: Box<dyn Network>,
-    observer: Option<Rc<RefCell<dyn Observer>>>,
+    observer: Option<SharedObserver>,
 ) -> Result<Outcome, RunError> {
     let (nodes, collection) = run.prepare()?;
     let prices = Rc::new(Prices::of(machine)?);
@@ -165,6 +183,7 @@ pub fn simulate_observed(
         memory: memory.clone(),
         storage: caches.map(|caches| storage(caches)),
         interpreter: interpreter.clone(),
+        socket: None,
     };
     let finished = Rc::new(RefCell::new(Vec::new()));
     for (rank, node) in nodes.into_iter().enumerate() {
@@ -176,7 +195,10 @@ pub fn simulate_observed(
             finished.borrow_mut().push((rank, now, node, missing));
         });
     }
-    let service = process(run.processors);
+    let mut service = process(run.processors);
+    let display = machine.display.as_ref();
+    let socket = display.map(|display| Rc::new(Socket::new(display, service.node.clone())));
+    service.socket = socket.clone();
     handle.spawn("service node", async move {
         service_node(&service, collection).await;
         service.node.finish();
@@ -187,17 +209,20 @@ pub fn simulate_observed(
     let time = finished.iter().map(|(_, time, ..)| *time).max().unwrap_or(Time::ZERO);
     let (nodes, missing): (Vec<_>, Vec<_>) =
         finished.into_iter().map(|(_, _, node, missing)| (node, missing)).unzip();
-    let reports =
-        multicomputer.accounts().into_iter().zip(missing).map(|(account, missing)| NodeReport {
-            compute: account.compute,
-            missing,
-            overhead: account.overhead(),
-            paging: account.paging,
-            memory_high_water: account.memory_high_water,
-            idle: account.idle,
-            layer: account.layer,
-            ..NodeReport::default()
-        });
+    let accounts = multicomputer.accounts();
+    let reports = accounts.iter().zip(missing).map(|(account, missing)| NodeReport {
+        compute: account.compute,
+        missing,
+        overhead: account.overhead(),
+        paging: account.paging,
+        memory_high_water: account.memory_high_water,
+        idle: account.idle,
+        layer: account.layer,
+        ..NodeReport::default()
+    });
     let reports = reports.collect();
-    Ok(Outcome::of(time, &nodes, reports))
+    let outcome = Outcome::of(time, &nodes, reports);
+    let sent = outcome.counts.update_messages;
+    let display = socket.map(|s| DisplayReport::of((time, sent), &accounts, &s.account()));
+    Ok(Outcome { display, ..outcome })
 }

@@ -10,7 +10,7 @@ use multicomputer::Machine;
 use peak_alloc::PeakAlloc;
 use radiosity::{Hemisphere, HemisphereKind, LocalEnvironment, Mask, Patch, PatchSize, Rgb};
 use virtwall::{
-    KeptShots, Mapping, Problem, ProblemOptions, Rules, Run, Selection, Ties, simulate,
+    KeptShots, Mapping, Problem, ProblemOptions, Rules, Run, Selection, Shooting, Ties, simulate,
 };
 
 #[global_allocator]
@@ -53,6 +53,7 @@ fn bytes(floors: u16) -> [f64; 3] {
         radiosity_updates: true,
         merge_masks: false,
         mapping: Mapping::Blocks,
+        shooting: Shooting::default(),
     };
     HEAP.reset_peak_usage();
     let (problem, kept) = (Arc::clone(&problem), Arc::new(KeptShots::new(0)));

@@ -8,7 +8,7 @@ use desim::Duration;
 use multicomputer::Machine;
 use radiosity::glam::DVec3;
 use radiosity::{Face, Hemisphere, HemisphereKind, Material, PatchSize, Rgb, Scene};
-use virtwall::{Mapping, Outcome, Problem, ProblemOptions, Rules, Selection, Ties};
+use virtwall::{Mapping, Outcome, Problem, ProblemOptions, Rules, Selection, Shooting, Ties};
 
 /// A material that reflects `reflectance` and emits `emission` in all colours.
 pub fn grey(reflectance: f64, emission: f64) -> Material {
@@ -102,6 +102,7 @@ pub fn rules() -> Rules {
         radiosity_updates: true,
         merge_masks: false,
         mapping: Mapping::Blocks,
+        shooting: Shooting::default(),
     }
 }
 
@@ -118,5 +119,6 @@ pub fn same(one: &Outcome, other: &Outcome) {
     assert_eq!(one.ending, other.ending);
     assert_eq!(one.work, other.work);
     assert_eq!(one.nodes, other.nodes);
+    assert_eq!(one.display, other.display);
     assert_eq!(one.radiosity, other.radiosity);
 }

@@ -1,0 +1,322 @@
+//! `virtwall render`: a scene, or any instant of a run, as a picture, an animation or a glTF file.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+use desim::Time;
+use lab::{Stage, Which};
+use multicomputer::quantity::{Dimension, QuantityError, parse};
+use radiosity::glam::DVec3;
+use radiosity::{Camera, Exposure, Mesh, Picture, PictureOptions, Rgb, Shading, Tone, render};
+
+use crate::exit::Exit;
+
+/// Frames whose light is in memory at once.
+const BATCH: usize = 32;
+
+/// What to draw, of what, and how.
+#[derive(Args)]
+pub struct Arguments {
+    /// Name of a scene, or path to a scene description (.json) or an OBJ file, to be solved by itself;
+    /// or path to an experiment (.json), or to a folder of results: a run of it is made again
+    what: String,
+    /// Draw a picture to this PNG file
+    #[arg(short, long, value_name = "PNG", required_unless_present = "gltf")]
+    output: Option<PathBuf>,
+    /// Write the patches to this binary glTF file: at each vertex COLOR_0, what a picture would show,
+    /// exposure and tone applied, and _RADIOSITY, W/m²
+    #[arg(long, value_name = "GLB", conflicts_with = "frames")]
+    gltf: Option<PathBuf>,
+    #[command(flatten)]
+    moment: Moment,
+    #[command(flatten)]
+    view: View,
+    /// How radiosity runs over a patch
+    #[arg(long, value_enum, default_value = "smooth")]
+    shading: ShadingArgument,
+    /// The radiosity that becomes middle grey, W/m² [default: the geometric mean of what is seen, in an
+    /// animation of its last picture; of all patches in a glTF file without a picture]
+    #[arg(long, value_name = "W/M2", value_parser = positive)]
+    exposure: Option<f64>,
+    /// How what is brighter than middle grey nears white
+    #[arg(long, value_enum, default_value = "reinhard")]
+    tone: ToneArgument,
+}
+
+/// Which light.
+#[derive(Args)]
+struct Moment {
+    /// Solve a scene until no more than this is unshot, or 5,000 shots are done
+    #[arg(long, value_name = "SHARE", default_value = "10 %", value_parser = share)]
+    unshot: f64,
+    /// The run: its row in runs.csv, from 1 [default: the last]
+    #[arg(long, value_name = "ROW")]
+    run: Option<usize>,
+    /// Put a value in the place of the experiment's, as for `virtwall run`
+    #[arg(long, value_name = "PATH=VALUE")]
+    set: Vec<String>,
+    /// The instant, virtual time, such as "3.2 s" [default: the end]
+    #[arg(long, value_name = "TIME", value_parser = instant)]
+    at: Option<Time>,
+    /// Draw so many pictures, at equal times from the start to the end, as PNG-001.png and so on
+    #[arg(long, value_name = "N", conflicts_with = "at", requires = "output")]
+    #[arg(value_parser = clap::value_parser!(u32).range(2..=10_000))]
+    frames: Option<u32>,
+}
+
+/// From where. Coordinates are the scene's, metres; z is up.
+#[derive(Args)]
+struct View {
+    /// Where the camera stands, unless --eye and --target say
+    #[arg(long, value_enum, default_value = "outside")]
+    camera: CameraArgument,
+    /// Where the camera stands
+    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
+    eye: Option<DVec3>,
+    /// What it looks at
+    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
+    target: Option<DVec3>,
+    /// What is up in the picture [default: 0,0,1]
+    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
+    up: Option<DVec3>,
+    /// Angle from the lower to the upper edge of the picture, degrees
+    #[arg(long, value_name = "DEGREES", value_parser = angle)]
+    field_of_view: Option<f64>,
+    /// Pixels in a row, and rows
+    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1200x800", value_parser = size)]
+    size: (u32, u32),
+    /// Leave out of pictures what lies above this height, metres
+    #[arg(long, value_name = "Z", value_parser = number, allow_hyphen_values = true)]
+    cut_above: Option<f64>,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum CameraArgument {
+    /// Looking down on the whole, through the backs of walls
+    Outside,
+    /// In a corner, looking across
+    Inside,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum ShadingArgument {
+    /// Means of the patches that meet at a corner, in one plane of one object
+    Smooth,
+    /// Each patch as it is
+    Flat,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum ToneArgument {
+    /// Softly (Reinhard 2002)
+    Reinhard,
+    /// In proportion, cut off: radiosity can be read back from a picture
+    Linear,
+}
+
+/// Draws; says what it drew.
+pub fn run(arguments: &Arguments) -> Result<String, Exit> {
+    let Moment { set, run, at, frames, .. } = &arguments.moment;
+    let stage = Stage::open(&arguments.what, &Which { set, row: *run })?;
+    if stage.run.is_none() && (at.is_some() || frames.is_some() || run.is_some() || !set.is_empty())
+    {
+        let message = format!("{}: a scene; expected an experiment or results", arguments.what);
+        return Err(Exit::bad_input(message + " for --at, --frames, --run and --set"));
+    }
+    let (width, height) = arguments.view.size;
+    let scene = &stage.space().scene;
+    let camera = arguments.view.camera(scene).map_err(Exit::bad_input)?;
+    let shading = match arguments.shading {
+        ShadingArgument::Smooth => Shading::Smooth,
+        ShadingArgument::Flat => Shading::Flat,
+    };
+    let studio = Studio {
+        arguments,
+        stage: &stage,
+        mesh: Mesh::new(stage.space(), stage.environments(), shading),
+        camera,
+    };
+    let drawn = match frames {
+        Some(frames) => studio.animation(*frames)?,
+        None => studio.still()?,
+    };
+    let mut text = format!("{}\n{drawn}", stage.title);
+    for file in stage.run.iter().flat_map(|run| &run.changed) {
+        text += &format!("note: {file} is not what it was when the results were made\n");
+    }
+    Ok(if arguments.output.is_some() {
+        text + &format!("{width} x {height} pixels\n")
+    } else {
+        text
+    })
+}
+
+/// A scene before its camera.
+struct Studio<'a> {
+    arguments: &'a Arguments,
+    stage: &'a Stage,
+    mesh: Mesh<'a>,
+    camera: Camera,
+}
+
+impl Studio<'_> {
+    /// One picture, one glTF file, or both.
+    fn still(&self) -> Result<String, Exit> {
+        let (light, when) = match &self.stage.run {
+            None => {
+                let (light, unshot) = self.stage.solved(self.arguments.moment.unshot);
+                (light, format!("{:.1} % of the light unshot", 100.0 * unshot))
+            }
+            Some(run) => {
+                let (mut light, at) = (Vec::new(), self.arguments.moment.at);
+                let end = self.light_at(&[at.unwrap_or(Time::MAX)], &mut light)?;
+                let at = at.map_or(end, |at| at.min(end)) - Time::ZERO;
+                let when = format!("run {} at {at} of {}", run.row, end - Time::ZERO);
+                (light.swap_remove(0), when)
+            }
+        };
+        let light = self.mesh.light(&light);
+        let mut exposure = self.exposure();
+        let mut middle_grey = 0.0;
+        if let Some(path) = &self.arguments.output {
+            middle_grey = self.write_picture(&light, exposure, path)?;
+            exposure = Exposure::MiddleGrey(middle_grey);
+        }
+        if let Some(path) = &self.arguments.gltf {
+            let origin = self.stage.space().scene.origin;
+            let (bytes, middle) = self.mesh.to_glb(&light, origin, exposure, self.tone());
+            lab::write_file(path, &bytes).map_err(Exit::bad_input)?;
+            middle_grey = middle;
+        }
+        Ok(format!("{when}; middle grey is {middle_grey:.4} W/m²\n"))
+    }
+
+    /// Numbered pictures. All have the exposure of the last one.
+    fn animation(&self, frames: u32) -> Result<String, Exit> {
+        let Some(output) = &self.arguments.output else { return Ok(String::new()) };
+        let mut light = Vec::new();
+        let end = self.light_at(&[Time::MAX], &mut light)? - Time::ZERO;
+        let last = numbered(output, frames, frames);
+        let middle_grey =
+            self.write_picture(&self.mesh.light(&light[0]), self.exposure(), &last)?;
+        let span = end.as_seconds_f64() / f64::from(frames - 1);
+        let time = |frame: u32| {
+            Time::ZERO + desim::Duration::from_seconds_f64(span * f64::from(frame - 1))
+        };
+        let others: Vec<u32> = (1..frames).collect();
+        for batch in others.chunks(BATCH) {
+            let times: Vec<Time> = batch.iter().map(|&frame| time(frame)).collect();
+            self.light_at(&times, &mut light)?;
+            for (&frame, light) in batch.iter().zip(&light) {
+                let path = numbered(output, frame, frames);
+                let exposure = Exposure::MiddleGrey(middle_grey);
+                self.write_picture(&self.mesh.light(light), exposure, &path)?;
+            }
+        }
+        let last = last.display();
+        Ok(format!(
+            "{frames} pictures until {end}, to {last}; middle grey is {middle_grey:.4} W/m²\n"
+        ))
+    }
+
+    /// The light of the run at these times; returns its end.
+    fn light_at(&self, times: &[Time], light: &mut Vec<lab::Light>) -> Result<Time, Exit> {
+        let (found, end) = self.stage.light_at(times).map_err(Exit::failure)?;
+        *light = found;
+        Ok(end)
+    }
+
+    /// Returns the radiosity that became middle grey.
+    fn write_picture(&self, light: &[Rgb], exposure: Exposure, path: &Path) -> Result<f64, Exit> {
+        let scene = &self.stage.space().scene;
+        let cut_above = self.arguments.view.cut_above.map(|height| height - scene.origin.z);
+        let options = PictureOptions { exposure, tone: self.tone(), cut_above };
+        let colour = |polygon, point| self.mesh.radiosity_at(light, polygon, point);
+        let picture: Picture =
+            render(scene, &self.camera, colour, options).map_err(Exit::bad_input)?;
+        let bytes = picture.encode_png().map_err(Exit::failure)?;
+        lab::write_file(path, &bytes).map_err(Exit::bad_input)?;
+        Ok(picture.middle_grey)
+    }
+
+    fn exposure(&self) -> Exposure {
+        self.arguments.exposure.map_or(Exposure::Auto, Exposure::MiddleGrey)
+    }
+
+    fn tone(&self) -> Tone {
+        match self.arguments.tone {
+            ToneArgument::Reinhard => Tone::Reinhard,
+            ToneArgument::Linear => Tone::Linear,
+        }
+    }
+}
+
+impl View {
+    fn camera(&self, scene: &radiosity::Scene) -> Result<Camera, String> {
+        let default = match self.camera {
+            CameraArgument::Outside => Camera::overview(&scene.bounds),
+            CameraArgument::Inside => Camera::inside(&scene.bounds),
+        };
+        let local = |place: Option<DVec3>| place.map(|place| place - scene.origin);
+        let (width, height) = self.size;
+        let camera = Camera {
+            eye: local(self.eye).unwrap_or(default.eye),
+            target: local(self.target).unwrap_or(default.target),
+            up: self.up.unwrap_or(default.up),
+            field_of_view_degrees: self.field_of_view.unwrap_or(default.field_of_view_degrees),
+            width,
+            height,
+        };
+        if (camera.target - camera.eye).cross(camera.up).length_squared() > 0.0 {
+            Ok(camera)
+        } else {
+            Err("--eye, --target, --up: nothing between eye and target, or up along the line of \
+                 sight; expected a direction to look in, and another one up"
+                .to_owned())
+        }
+    }
+}
+
+/// The file of a frame, as many digits as the last one has, and at least three.
+fn numbered(path: &Path, frame: u32, frames: u32) -> PathBuf {
+    let digits = frames.to_string().len().max(3);
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!("{stem}-{frame:0digits$}.png"))
+}
+
+fn instant(text: &str) -> Result<Time, QuantityError> {
+    let seconds = parse(text, Dimension::Time)?;
+    Ok(Time::ZERO + desim::Duration::from_seconds_f64(seconds))
+}
+
+fn share(text: &str) -> Result<f64, QuantityError> {
+    parse(text, Dimension::Fraction)
+}
+
+fn number(text: &str) -> Result<f64, String> {
+    let number = text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+    number.ok_or_else(|| format!("found \"{text}\"; expected a number"))
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    let positive = number(text).ok().filter(|&number| number > 0.0);
+    positive.ok_or_else(|| format!("found \"{text}\"; expected a number above zero"))
+}
+
+fn angle(text: &str) -> Result<f64, String> {
+    let angle = number(text).ok().filter(|angle| (0.1..=179.0).contains(angle));
+    angle.ok_or_else(|| format!("found \"{text}\"; expected degrees, 0.1 to 179"))
+}
+
+fn point(text: &str) -> Result<DVec3, String> {
+    let numbers: Result<Vec<f64>, String> = text.split(',').map(number).collect();
+    match numbers.as_deref() {
+        Ok(&[x, y, z]) => Ok(DVec3::new(x, y, z)),
+        _ => Err(format!("found \"{text}\"; expected three numbers, such as 1.5,-2,1.7")),
+    }
+}
+
+fn size(text: &str) -> Result<(u32, u32), String> {
+    let size = text.split_once('x').and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
+    size.ok_or_else(|| format!("found \"{text}\"; expected pixels, such as 1200x800"))
+}

@@ -1,0 +1,76 @@
+//! An Ethernet: a medium that carries one frame at a time.
+
+use desim::Duration;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use crate::fault::MachineFault;
+use crate::sourced::{Bandwidth, Bytes, Quantity, Sourced, whole_bytes};
+
+/// What a medium is that carries one frame at a time. Nobody else sends on it, so that there are no
+/// collisions, and frames shorter than the shortest allowed are sent as they are.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ethernet {
+    /// Bytes a second on the wire.
+    pub bandwidth: f64,
+    /// The most bytes of a message that a frame carries, at least 1.
+    pub payload: u64,
+    /// What goes over the wire with each frame besides: preamble, headers, checksum, gap, bytes.
+    pub overhead: u64,
+}
+
+impl Ethernet {
+    /// The frames of a message; an empty one needs a frame, too.
+    pub fn frames(&self, bytes: u64) -> u64 {
+        bytes.div_ceil(self.payload).max(1)
+    }
+
+    /// For how long a message keeps the medium busy.
+    pub fn time(&self, bytes: u64) -> Duration {
+        let all = bytes as f64 + self.frames(bytes) as f64 * self.overhead as f64;
+        Duration::from_seconds_f64(all / self.bandwidth)
+    }
+}
+
+/// The medium, as a machine file has it.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "an object that describes an Ethernet")]
+pub(crate) struct EthernetFile {
+    /// Bytes a second on the wire.
+    bandwidth: Sourced<Quantity<Bandwidth>>,
+    /// The most bytes of a message that a frame carries.
+    payload: Sourced<Quantity<Bytes>>,
+    /// What goes over the wire with each frame besides: preamble, headers, checksum, gap.
+    overhead: Sourced<Quantity<Bytes>>,
+}
+
+impl EthernetFile {
+    pub(crate) fn check(&self) -> Result<Ethernet, MachineFault> {
+        Ok(Ethernet {
+            bandwidth: self.bandwidth.value.si,
+            payload: whole_bytes("display.ethernet.payload", &self.payload)?,
+            overhead: self.overhead.value.si.round() as u64,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 10 Mbit/s, TCP over Ethernet: 1,460 bytes in 1,538.
+    #[test]
+    fn the_time_of_a_message_is_that_of_its_frames() {
+        let ethernet = Ethernet { bandwidth: 1.25e6, payload: 1_460, overhead: 78 };
+        let microseconds = |bytes| ethernet.time(bytes).as_seconds_f64() * 1e6;
+        for (bytes, frames, time) in
+            [(0, 1, 62.4), (1, 1, 63.2), (1_460, 1, 1_230.4), (1_461, 2, 1_293.6)]
+        {
+            assert_eq!(ethernet.frames(bytes), frames);
+            assert!((microseconds(bytes) - time).abs() < 1e-3, "{bytes}");
+        }
+        // A megabyte of full frames: 94.9 % of the wire's rate, the known limit of TCP.
+        let rate = 1.46e6 / ethernet.time(1_460_000).as_seconds_f64();
+        assert!((rate / 1.25e6 - 0.9493).abs() < 1e-4);
+    }
+}

@@ -1,0 +1,59 @@
+//! Numbers and names of what nodes do.
+
+use virtwall::{Activity, MessageKind};
+
+/// Every activity, in the order of their numbers from 0.
+pub(crate) fn activities() -> impl Iterator<Item = Activity> {
+    let sends = MessageKind::ALL.into_iter().map(Activity::Send);
+    OTHERS.into_iter().chain(sends)
+}
+
+const OTHERS: [Activity; 11] = [
+    Activity::Selection,
+    Activity::LocalShot,
+    Activity::ReceivedShot,
+    Activity::Receive,
+    Activity::Pack,
+    Activity::Copy,
+    Activity::WaitForRoom,
+    Activity::Paging,
+    Activity::Forward,
+    Activity::WaitForDisplay,
+    Activity::Wait,
+];
+
+/// The number of an activity.
+pub(crate) fn number(activity: Activity) -> usize {
+    match activity {
+        Activity::Selection => 0,
+        Activity::LocalShot => 1,
+        Activity::ReceivedShot => 2,
+        Activity::Receive => 3,
+        Activity::Pack => 4,
+        Activity::Copy => 5,
+        Activity::WaitForRoom => 6,
+        Activity::Paging => 7,
+        Activity::Forward => 8,
+        Activity::WaitForDisplay => 9,
+        Activity::Wait => 10,
+        Activity::Send(kind) => OTHERS.len() + kind as usize,
+    }
+}
+
+/// What an activity is called in a trace, where a message is not what is done with it.
+pub(crate) fn name(activity: Activity) -> String {
+    match activity {
+        Activity::Send(kind) => format!("send {}", kind.name()),
+        other => other.name().to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_places() {
+        assert!(activities().map(number).eq(0..18));
+    }
+}

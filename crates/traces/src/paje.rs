@@ -1,0 +1,223 @@
+//! A run as a Pajé trace: events in lines of text, in the order of time, after their own definitions.
+//!
+//! de Oliveira Stein, Chassin de Kergommeaux, Mounié: Pajé trace file format, 2003.
+
+use std::fmt::Write as _;
+
+use desim::Time;
+use virtwall::{Activity, Recording};
+
+use crate::activities::{activities, name, number};
+use crate::lane::{Lane, Mail, Mark};
+use crate::sample::Sample;
+
+/// The events that are used, and their fields besides the number of the event.
+const EVENTS: [(&str, &[&str]); 11] = [
+    ("PajeDefineContainerType", &["Alias string", "Type string", "Name string"]),
+    ("PajeDefineStateType", &["Alias string", "Type string", "Name string"]),
+    ("PajeDefineVariableType", &["Alias string", "Type string", "Name string", "Color color"]),
+    (
+        "PajeDefineLinkType",
+        &[
+            "Alias string",
+            "Type string",
+            "StartContainerType string",
+            "EndContainerType string",
+            "Name string",
+        ],
+    ),
+    ("PajeDefineEntityValue", &["Alias string", "Type string", "Name string", "Color color"]),
+    ("PajeSetState", &["Time date", "Type string", "Container string", "Value string"]),
+    ("PajeSetVariable", &["Time date", "Type string", "Container string", "Value double"]),
+    (
+        "PajeStartLink",
+        &[
+            "Time date",
+            "Type string",
+            "Container string",
+            "Value string",
+            "StartContainer string",
+            "Key string",
+            "Bytes int",
+        ],
+    ),
+    (
+        "PajeEndLink",
+        &[
+            "Time date",
+            "Type string",
+            "Container string",
+            "Value string",
+            "EndContainer string",
+            "Key string",
+        ],
+    ),
+    (
+        "PajeCreateContainer",
+        &["Time date", "Alias string", "Type string", "Container string", "Name string"],
+    ),
+    ("PajeDestroyContainer", &["Time date", "Type string", "Name string"]),
+];
+const SET_STATE: usize = 5;
+const SET_VARIABLE: usize = 6;
+const START_LINK: usize = 7;
+const END_LINK: usize = 8;
+const CREATE_CONTAINER: usize = 9;
+const DESTROY_CONTAINER: usize = 10;
+
+/// What comes after a node knows of the end.
+const ENDED: &str = "z";
+
+/// The types, by aliases: run R, node N; state S, queue Q, unshot power U, power in transit T, message
+/// L. The run itself is r, the nodes are their ranks.
+const TYPES: &str = "0 R 0 Run
+0 N R Node
+1 S N Activity
+2 Q N \"Queue length\" \"0.5 0.5 0.5\"
+2 U R \"Unshot power, W\" \"0.9 0.7 0.1\"
+2 T R \"Power in transit, W\" \"0.3 0.5 0.8\"
+3 L R N N Message
+";
+
+/// The file's text.
+pub(crate) fn encode(recording: &Recording, title: &str, sample: Sample) -> Vec<u8> {
+    let mut text = definitions();
+    let last = recording.nodes.len() - 1;
+    let title = sample.caption(title).replace('"', "'");
+    let _ = writeln!(text, "{CREATE_CONTAINER} 0 r R 0 \"{title}\"");
+    for rank in 0..=last {
+        let name = if rank == last { "service node".to_owned() } else { format!("node {rank}") };
+        let _ = writeln!(text, "{CREATE_CONTAINER} 0 {rank} N r \"{name}\"");
+    }
+    let mut lines = Lines::default();
+    for (rank, mail) in Mail::of(recording).iter().enumerate() {
+        let node = &recording.nodes[rank];
+        let lane = Lane { messages: &recording.messages, node, mail, sample };
+        states(&mut lines, rank, &lane);
+    }
+    powers(&mut lines, recording);
+    messages(&mut lines, recording, sample);
+    let end = lines.write(&mut text);
+    for rank in 0..=last {
+        let _ = writeln!(text, "{DESTROY_CONTAINER} {} N {rank}", seconds(end));
+    }
+    let _ = writeln!(text, "{DESTROY_CONTAINER} {} R r", seconds(end));
+    text.into_bytes()
+}
+
+fn definitions() -> String {
+    let mut text = String::new();
+    for (number, (name, fields)) in EVENTS.iter().enumerate() {
+        let _ = writeln!(text, "%EventDef {name} {number}");
+        fields.iter().for_each(|field| _ = writeln!(text, "% {field}"));
+        text += "%EndEventDef\n";
+    }
+    text += TYPES;
+    for activity in activities() {
+        let (alias, name, colour) = (alias(activity), name(activity), colour(activity));
+        let _ = writeln!(text, "4 {alias} S \"{name}\" \"{colour}\"");
+        if let Activity::Send(kind) = activity {
+            let _ = writeln!(text, "4 {alias} L \"{}\" \"{colour}\"", kind.name());
+        }
+    }
+    let _ = writeln!(text, "4 {ENDED} S ended \"1 1 1\"");
+    text
+}
+
+/// What a node does, and how many sources wait for it.
+fn states(lines: &mut Lines, rank: usize, lane: &Lane) {
+    for (time, mark) in lane.marks(true) {
+        if let Mark::Begin(activity, _) = mark {
+            let alias = alias(activity);
+            lines.add(time, 0, format_args!("{SET_STATE} {} S {rank} {alias}", seconds(time)));
+        }
+    }
+    let end = lane.node.end();
+    lines.add(end, 0, format_args!("{SET_STATE} {} S {rank} {ENDED}", seconds(end)));
+    for (i, &(time, length)) in lane.node.queue.iter().enumerate() {
+        if lane.sample.holds(i) {
+            let time_s = seconds(time);
+            lines.add(time, 1, format_args!("{SET_VARIABLE} {time_s} Q {rank} {length}"));
+        }
+    }
+}
+
+fn powers(lines: &mut Lines, recording: &Recording) {
+    let mut last = [None; 2];
+    for energy in &recording.energy {
+        let values = [energy.unshot as f32, energy.in_transit as f32];
+        for ((last, value), variable) in last.iter_mut().zip(values).zip(["U", "T"]) {
+            if last.replace(value) != Some(value) {
+                let time = seconds(energy.at);
+                lines.add(energy.at, 1, format_args!("{SET_VARIABLE} {time} {variable} r {value}"));
+            }
+        }
+    }
+}
+
+/// Arrows; one that was never read ends where it has arrived, and one that has not is left out.
+fn messages(lines: &mut Lines, recording: &Recording, sample: Sample) {
+    for (number, message) in recording.messages.iter().enumerate() {
+        let Some(end) = message.read.or(message.arrived).filter(|_| sample.holds(number)) else {
+            continue;
+        };
+        let kind = alias(Activity::Send(message.kind));
+        let (sent, bytes, from, to) =
+            (seconds(message.sent), message.bytes, message.from, message.to);
+        let start = format_args!("{START_LINK} {sent} L r {kind} {from} {number:x} {bytes}");
+        lines.add(message.sent, 2, start);
+        let end_s = seconds(end);
+        lines.add(end, 3, format_args!("{END_LINK} {end_s} L r {kind} {to} {number:x}"));
+    }
+}
+
+/// Lines that are still to be put in the order of time.
+#[derive(Default)]
+struct Lines {
+    text: String,
+    /// Time, order at one time, where the line begins in the text and where it ends.
+    index: Vec<(Time, u8, usize, usize)>,
+}
+
+impl Lines {
+    fn add(&mut self, time: Time, order: u8, line: std::fmt::Arguments) {
+        let begin = self.text.len();
+        let _ = writeln!(self.text, "{line}");
+        self.index.push((time, order, begin, self.text.len()));
+    }
+
+    /// Writes the lines; returns the time of the last one.
+    fn write(mut self, to: &mut String) -> Time {
+        self.index.sort_unstable();
+        for &(_, _, begin, end) in &self.index {
+            *to += &self.text[begin..end];
+        }
+        self.index.last().map_or(Time::ZERO, |&(time, ..)| time)
+    }
+}
+
+/// A letter for an activity, and for the messages that it sends.
+fn alias(activity: Activity) -> char {
+    (b'a' + number(activity) as u8) as char
+}
+
+fn colour(activity: Activity) -> &'static str {
+    match activity {
+        Activity::Selection => "0.95 0.85 0.40",
+        Activity::LocalShot => "0.90 0.45 0.10",
+        Activity::ReceivedShot => "0.20 0.55 0.80",
+        Activity::Send(_) => "0.60 0.35 0.65",
+        Activity::Receive => "0.80 0.60 0.85",
+        Activity::Pack | Activity::Copy | Activity::Forward => "0.55 0.45 0.35",
+        Activity::WaitForRoom | Activity::WaitForDisplay => "0.80 0.20 0.20",
+        Activity::Paging => "0.40 0.10 0.10",
+        Activity::Wait => "0.90 0.90 0.90",
+    }
+}
+
+/// Seconds, to the nanosecond below.
+fn seconds(time: Time) -> String {
+    let ns = time.0 / 1_000;
+    let text = format!("{}.{:09}", ns / 1_000_000_000, ns % 1_000_000_000);
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}

@@ -1,0 +1,34 @@
+//! How much of a run a trace shows.
+
+/// Of the messages of a run one in so many; of all else, everything but the overheads and the lengths
+/// of queues that go with the messages left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sample(u32);
+
+impl Sample {
+    /// Everything.
+    pub const ALL: Sample = Sample(1);
+
+    /// One message in `n`; 0 counts as 1.
+    pub fn one_in(n: u32) -> Sample {
+        Sample(n.max(1))
+    }
+
+    /// Whether nothing is left out.
+    pub(crate) fn is_complete(self) -> bool {
+        self == Sample::ALL
+    }
+
+    /// Whether the thing of this number is shown.
+    pub(crate) fn holds(self, number: usize) -> bool {
+        number.is_multiple_of(self.0 as usize)
+    }
+
+    /// The title of what is shown so.
+    pub(crate) fn caption(self, title: &str) -> String {
+        match self.0 {
+            1 => title.to_owned(),
+            n => format!("{title}, one message in {n}"),
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! How long compute nodes take to make themselves ready: §4.2.1 of RR-3008.
+
+use desim::Duration;
+use multicomputer::{Machine, StartUp};
+
+use crate::run::{Run, RunError};
+
+/// A step of the initialisation. A machine whose start-up is modelled gives each a price.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// A polygon of the scene read from the file's text, and held against the node's environments.
+    PolygonRead,
+    /// A piece of a polygon cut out for an environment, and entered into cells.
+    PolygonCut,
+    /// A patch of a quad-tree made.
+    PatchMade,
+}
+
+impl Step {
+    /// Every step.
+    pub const ALL: [Step; 3] = [Step::PolygonRead, Step::PolygonCut, Step::PatchMade];
+
+    /// The name by which machine files price it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Step::PolygonRead => "polygon_read",
+            Step::PolygonCut => "polygon_cut",
+            Step::PatchMade => "patch_made",
+        }
+    }
+
+    /// The first step that a machine's start-up has no price for.
+    pub fn without_price(start_up: &StartUp) -> Option<Step> {
+        Step::ALL.into_iter().find(|step| !start_up.cycles.contains_key(step.name()))
+    }
+}
+
+/// How the last compute node to be ready came to be so.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StartUpReport {
+    /// From the start until it was ready.
+    pub time: Duration,
+    /// Of that, until it had read the scene.
+    pub reading: Duration,
+    /// Of that, how long it waited at I/O nodes for requests of others.
+    pub disk_wait: Duration,
+}
+
+/// The start-up of a run whose scene's files have so many bytes, where the machine models it. Every
+/// compute node reads all of the scene ("all the compute nodes perform I/O operations at the same
+/// time"), keeps what is in its own environments, and makes patches of it.
+///
+/// Choice C26: computing begins when all nodes are ready.
+///
+/// # Errors
+/// When the machine has no price for a step.
+#[doc(alias = "load_scene")]
+pub fn start_up(
+    run: &Run,
+    machine: &Machine,
+    scene_bytes: u64,
+) -> Result<Option<StartUpReport>, RunError> {
+    let Some(model) = &machine.start_up else { return Ok(None) };
+    if let Some(step) = Step::without_price(model) {
+        return Err(RunError::Step(step));
+    }
+    let problem = &run.problem;
+    let owners = run.rules.mapping.owners(problem.environments.len() as u32, run.processors);
+    let all = problem.space.scene.polygons.len() as u64;
+    let mut counts = vec![[all, 0, 0]; run.processors];
+    for (environment, &owner) in problem.environments.iter().zip(&owners) {
+        counts[owner][1] += environment.polygons() as u64;
+        counts[owner][2] += environment.patches.len() as u64;
+    }
+    let processor = &machine.processor;
+    let seconds = |counts: &[u64; 3]| -> f64 {
+        let cycles = Step::ALL.iter().zip(counts);
+        let cycles = cycles.map(|(step, &times)| model.cycles[step.name()] * times as f64);
+        cycles.sum::<f64>() * processor.scale / processor.clock
+    };
+    let readings = model.read(run.processors, scene_bytes);
+    let reports = readings.iter().zip(&counts).map(|(reading, counts)| {
+        let read = reading.done - desim::Time::ZERO;
+        let time = read + Duration::from_seconds_f64(seconds(counts));
+        StartUpReport { time, reading: read, disk_wait: reading.waited }
+    });
+    Ok(reports.max_by_key(|report| report.time))
+}
