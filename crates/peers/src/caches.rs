@@ -16,20 +16,18 @@ use crate::shots;
 /// Scenes and how they are cut.
 const SCENES: [&str; 3] = ["office", "rooms", "building"];
 const ENVIRONMENTS: [u32; 3] = [1, 8, 56];
-/// Machines whose caches are taken.
-const MACHINES: [&str; 2] = ["ultra1", "origin2000"];
 /// Valgrind's shortest line, bytes: what is shorter is made as long, on both sides.
 const SHORTEST_LINE: u64 = 32;
 
 /// Lights shot in each; the first one fills the caches and is not counted.
-const LIGHTS: usize = 4;
+const LIGHTS: usize = 3;
 const UNCOUNTED: usize = 1;
 
 /// Where arrays begin in memory is luck, and decides which of them fall on each other in a direct-mapped
-/// cache. Of three placements the median counts, valgrind's and the model's: bytes from which the
+/// cache. Of several placements the median counts, valgrind's and the model's: bytes from which the
 /// allocator gives an array pages of its own, and bytes that the model leaves between arrays.
 const PLACEMENTS: [u64; 3] = [4_096, 131_072, 1 << 30];
-const GAPS: [u64; 3] = [16, 1_040, 5_008];
+const GAPS: [u64; 7] = [16, 1_040, 2_064, 3_088, 5_008, 6_032, 7_056];
 
 /// The native kernel's records. Its polygons are 120 B, of which a test of the plane reads the better
 /// part. Frames of the three functions inside each other (1.4 KB as compiled) and the planes of the grid
@@ -78,30 +76,31 @@ pub struct Row {
 /// Data references and misses of both levels.
 type Counts = [u64; 3];
 
-/// Measure every scene, cut and machine.
+/// Measure every scene and cut in the caches of a machine.
 ///
 /// # Errors
-/// When valgrind does not run, or a scene is missing.
-pub fn measure() -> Result<Vec<Row>, String> {
+/// When valgrind does not run, a scene is missing, or the machine has not two levels.
+pub fn measure(machine: &str) -> Result<Vec<Row>, String> {
+    let levels = levels(machine)?;
     let mut all = Vec::new();
-    for machine in MACHINES {
-        let levels = levels(machine)?;
-        for scene in SCENES {
-            for environments in ENVIRONMENTS {
-                let rows = rows(machine, &levels, scene, environments)?;
-                let ratios: Vec<String> = rows.iter().map(|row| row.ratio.to_string()).collect();
-                eprintln!("{machine} {scene} {environments}: {}", ratios.join(" "));
-                all.extend(rows);
-            }
+    for scene in SCENES {
+        for environments in ENVIRONMENTS {
+            let rows = rows(machine, &levels, scene, environments)?;
+            let ratios: Vec<String> = rows.iter().map(|row| row.ratio.to_string()).collect();
+            eprintln!("{scene} {environments}: {}", ratios.join(" "));
+            all.extend(rows);
         }
     }
     Ok(all)
 }
 
-/// The caches of a machine, as valgrind can have them.
+/// The two levels of a machine's caches, as valgrind can have them.
 fn levels(machine: &str) -> Result<Vec<CacheLevel>, String> {
-    let mut levels =
-        shots::plan(&[&format!("machine={machine}")])?.machines[0].machine.processor.caches.clone();
+    let plan = shots::plan(&[&format!("machine={machine}")])?;
+    let mut levels = plan.machines[0].machine.processor.caches.clone();
+    if levels.len() != 2 {
+        return Err(format!("{machine}: found {} levels of caches; expected 2", levels.len()));
+    }
     levels.iter_mut().for_each(|level| level.line = level.line.max(SHORTEST_LINE));
     Ok(levels)
 }
@@ -246,23 +245,4 @@ pub fn table(rows: &[Row]) -> String {
         );
     }
     text
-}
-
-pub fn temp(scene: &str, environments: u32, hot: u64) -> Result<(), String> {
-    let problem = shots::problem(scene, environments)?;
-    let shots = shots::of_lights(&problem, LIGHTS);
-    for machine in MACHINES {
-        let levels = levels(machine)?;
-        for gap in GAPS {
-            let mut storage =
-                Storage::new(&problem, Layout { gap, frames: [hot, 144, 72], ..NATIVE }, &levels);
-            let (first, others) = shots.split_at(uncounted(&shots));
-            first.iter().for_each(|parcel| storage.shoot(parcel));
-            let before = storage.misses();
-            others.iter().for_each(|parcel| storage.shoot(parcel));
-            let m: Vec<_> = storage.misses().iter().zip(before).map(|(a, b)| a - b).collect();
-            println!("{machine} {gap} {} {}", m[0], m[1]);
-        }
-    }
-    Ok(())
 }

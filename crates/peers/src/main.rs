@@ -48,18 +48,12 @@ enum Command {
     Profile,
     /// Hold the model of a processor's caches against valgrind's count of misses.
     Caches {
+        /// The machine whose caches they are.
+        #[arg(default_value = "ultra1")]
+        machine: String,
         /// Folder for the figures; none are kept without it.
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
-    },
-    /// TEMP
-    Model {
-        /// s
-        scene: String,
-        /// e
-        environments: u32,
-        /// e
-        hot: u64,
     },
     /// Shoot lights natively, for valgrind to watch.
     #[command(hide = true)]
@@ -110,14 +104,13 @@ fn run(command: &Command) -> Result<(), String> {
             let rows = messages::measure(&messages::SIMGRID.build()?, rounds.rounds)?;
             print!("{}", messages::table(&rows));
         }
-        Command::Caches { out } => {
-            let rows = caches::measure()?;
+        Command::Caches { machine, out } => {
+            let rows = caches::measure(machine)?;
             print!("{}", caches::table(&rows));
             if let Some(out) = out {
                 record::write(out, "caches.csv", &record::csv(&rows)?)?;
             }
         }
-        Command::Model { scene, environments, hot } => caches::temp(scene, *environments, *hot)?,
         Command::Shots { scene, environments } => caches::native(scene, *environments)?,
         Command::Record { out, rounds } => record::record(out, rounds.rounds)?,
         Command::Profile => {

@@ -85,27 +85,37 @@ const PATCH: PatchRecord = PatchRecord {
     _corners_and_links: [0.0; 25],
 };
 
+/// An environment's patches, and the number in it of each polygon of the scene that it has.
+pub struct Records {
+    patches: Vec<PatchRecord>,
+    pieces: Vec<u32>,
+}
+
 /// Carry out shots, the first `uncounted` of them for the caches alone.
 pub fn carry_out(problem: &Problem, shots: &[Parcel], uncounted: usize) -> f64 {
-    let environments = problem.environments.iter();
-    let mut patches: Vec<_> = environments.map(|e| vec![PATCH; e.patches.len()]).collect();
+    let polygons = 0..problem.space.scene.polygons.len() as u32;
+    let records = problem.environments.iter().map(|environment| Records {
+        patches: vec![PATCH; environment.patches.len()],
+        pieces: polygons.clone().map(|p| environment.piece(p).unwrap_or(0)).collect(),
+    });
+    let mut records: Vec<Records> = records.collect();
     let (first, others) = shots.split_at(uncounted);
     for parcel in first {
-        shoot_and_update(problem, parcel, &mut patches);
+        shoot_and_update(problem, parcel, &mut records);
     }
-    counted(problem, others, &mut patches)
+    counted(problem, others, &mut records)
 }
 
 /// What valgrind counts.
 #[inline(never)]
-pub fn counted(problem: &Problem, shots: &[Parcel], patches: &mut [Vec<PatchRecord>]) -> f64 {
-    shots.iter().map(|parcel| shoot_and_update(problem, parcel, patches)).sum()
+pub fn counted(problem: &Problem, shots: &[Parcel], records: &mut [Records]) -> f64 {
+    shots.iter().map(|parcel| shoot_and_update(problem, parcel, records)).sum()
 }
 
 /// Shoot a source, make the masks for the neighbours, update all patches, and look for the greatest.
-fn shoot_and_update(problem: &Problem, parcel: &Parcel, patches: &mut [Vec<PatchRecord>]) -> f64 {
+fn shoot_and_update(problem: &Problem, parcel: &Parcel, records: &mut [Records]) -> f64 {
     let Parcel { environment, source, mask, .. } = parcel;
-    let patches = &mut patches[*environment as usize];
+    let Records { patches, pieces } = &mut records[*environment as usize];
     let environment = &problem.environments[*environment as usize];
     let [tangent, bitangent, normal] = problem.hemisphere.frame(source.centre, source.normal);
     let none = |side| environment.has_neighbour(side).then(|| Mask::none(mask.pixels()));
@@ -116,7 +126,8 @@ fn shoot_and_update(problem: &Problem, parcel: &Parcel, patches: &mut [Vec<Patch
         let ray = Ray::new(source.centre, tangent * d.x + bitangent * d.y + normal * d.z);
         match cast(&problem.space, environment, &ray, source.polygon, &mut work) {
             End::Hit { polygon, distance } => {
-                if let Some(patch) = environment.patch_at(polygon, ray.at(distance)) {
+                let piece = pieces[polygon as usize];
+                if let Some(patch) = environment.patch_of(piece, ray.at(distance)) {
                     patches[patch as usize].form_factor += 1.0;
                 }
             }
