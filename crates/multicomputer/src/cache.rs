@@ -1,7 +1,7 @@
 //! A processor's caches, line by line.
 
 use crate::fault::MachineFault;
-use crate::file::CacheFile;
+use crate::file::CachesFile;
 
 /// Largest line and cache, bytes: beyond them a file can only be a slip.
 const LONGEST_LINE: u64 = 65_536;
@@ -22,15 +22,16 @@ pub struct CacheLevel {
 
 /// The levels of a machine file: a line and a number of sets are powers of two, and no line is shorter
 /// than those of the level before.
-pub(crate) fn levels(files: &[CacheFile]) -> Result<Vec<CacheLevel>, MachineFault> {
+pub(crate) fn levels(files: &CachesFile) -> Result<Vec<CacheLevel>, MachineFault> {
     let mut levels: Vec<CacheLevel> = Vec::new();
-    for (i, file) in files.iter().enumerate() {
+    let secondary = files.secondary.as_ref().map(|file| ("secondary", file));
+    for (cache, file) in [("primary", &files.primary)].into_iter().chain(secondary) {
         let bytes = |name: &str, found: f64, unit: u64, most: u64| {
             let units = found / unit as f64;
             if units.fract() == 0.0 && (units as u64).is_power_of_two() && found <= most as f64 {
                 return Ok(found as u64);
             }
-            let place = format!("processor.caches[{i}].{name}.value");
+            let place = format!("processor.caches.{cache}.{name}.value");
             let expected = format!("expected {unit} B times a power of two, at most {most} B");
             Err(MachineFault::at(&place, format!("found {found} B; {expected}")))
         };

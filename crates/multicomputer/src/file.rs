@@ -111,10 +111,18 @@ pub(crate) struct ProcessorFile {
     /// Cycles of each operation that the kernels count.
     #[serde(deserialize_with = "without_repetition")]
     pub(crate) operations: BTreeMap<String, Sourced<Quantity<Cycles>>>,
-    /// Data caches, the nearest first. Without them misses cost nothing but what the cycles of the
-    /// operations hold already.
-    #[serde(default)]
-    pub(crate) caches: Vec<CacheFile>,
+    /// Data caches. Without them misses cost nothing but what the cycles of the operations hold already.
+    pub(crate) caches: Option<CachesFile>,
+}
+
+/// The caches between a processor and its memory.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "an object that describes caches")]
+pub(crate) struct CachesFile {
+    /// The one nearest to the processor.
+    pub(crate) primary: CacheFile,
+    /// The one behind it.
+    pub(crate) secondary: Option<CacheFile>,
 }
 
 /// A data cache.

@@ -301,7 +301,7 @@ fn processor(file: ProcessorFile) -> Result<Processor, MachineFault> {
         clock: file.clock.value.si,
         scale: file.scale.value.0,
         cycles: cycles.collect(),
-        caches: cache::levels(&file.caches)?,
+        caches: file.caches.as_ref().map_or(Ok(Vec::new()), cache::levels)?,
     })
 }
 
