@@ -12,11 +12,15 @@ use crate::start_up;
 use crate::sweep::Axis;
 use crate::tuned;
 
+/// Two of the first columns, against whose ones runs are held.
+pub const PROCESSORS: &str = "processors";
+pub const ENVIRONMENTS: &str = "local_environments";
+
 /// The first columns, always these, in this order.
 const FIRST: [&str; 14] = [
     "scene",
-    "processors",
-    "local_environments",
+    PROCESSORS,
+    ENVIRONMENTS,
     "seed",
     "time_s",
     "speed_up",
@@ -73,6 +77,8 @@ const OF_MEMORY: [&str; 2] = ["memory_high_water", "paging_s"];
 
 /// The column after these, where scenes have participating media.
 const OF_MEDIA: [&str; 1] = ["absorbed_by_media"];
+/// The columns after these, where processors have caches: what they cost, and Figure 11's gain.
+const OF_CACHES: [&str; 2] = ["missing_s", "gain"];
 
 /// What columns there are besides those of every sweep.
 #[derive(Clone, Copy, Debug)]
@@ -87,6 +93,8 @@ pub struct Also {
     pub accuracy: bool,
     /// That of participating media.
     pub media: bool,
+    /// Those of the processors' caches.
+    pub caches: bool,
     /// Those of errors.
     pub errors: bool,
     /// Those of what makes the errors up.
@@ -103,13 +111,14 @@ impl Also {
         let memory = OF_MEMORY.into_iter().filter(move |_| self.memory);
         let layer = message_layer::COLUMNS.into_iter().filter(move |_| self.message_layer);
         let media = OF_MEDIA.into_iter().filter(move |_| self.media);
+        let caches = OF_CACHES.into_iter().filter(move |_| self.caches);
         let errors = errors::COLUMNS.into_iter().filter(move |_| self.errors);
         let display = display::COLUMNS.into_iter().filter(move |_| self.display);
         let start_up = start_up::COLUMNS.into_iter().filter(move |_| self.start_up);
         let machine = network.chain(memory).chain(layer).chain(display).chain(start_up);
         let causes = causes::COLUMNS.into_iter().filter(move |_| self.causes);
         let accuracy = tuned::COLUMNS.into_iter().filter(move |_| self.accuracy);
-        machine.chain(media).chain(errors).chain(causes).chain(accuracy)
+        machine.chain(caches).chain(media).chain(errors).chain(causes).chain(accuracy)
     }
 }
 
@@ -135,6 +144,7 @@ pub fn figure(figures: &Figures, column: &str) -> Option<String> {
         "blocked_s" => optional(network.map(|network| network.blocked_s), 9),
         "memory_high_water" => memory.map_or(String::new(), |memory| memory.high_water.to_string()),
         "paging_s" => optional(memory.map(|memory| memory.paging_s), 6),
+        "missing_s" => optional(figures.missing_s, 6),
         "time_s" => optional(figures.time_s, 6),
         "local_shots" => figures.local_shots.to_string(),
         "received_shots" => figures.received_shots.to_string(),

@@ -178,10 +178,12 @@ pub fn carry_out(
     let start_up = start_up.as_ref().map(StartUpFigures::of);
     let tells = on == On::Simulation && message_layer::tells(machine);
     let message_layer = tells.then(|| MessageLayerFigures::of(&outcome.layer()));
+    let caches = on == On::Simulation && !machine.processor.caches.is_empty();
+    let missing_s = caches.then(|| outcome.missing().as_seconds_f64());
     let figures = figures(&run.problem, &outcome, on == On::Simulation);
     let counted = start_up.filter(|_| point.count_start_up).map_or(0.0, |s| s.start_up_s);
     let time_s = figures.time_s.map(|time_s| time_s + counted);
-    let figures = Figures { time_s, network, message_layer, start_up, ..figures };
+    let figures = Figures { time_s, network, message_layer, start_up, missing_s, ..figures };
     Ok((figures, outcome.radiosity))
 }
 
@@ -286,6 +288,7 @@ fn figures(problem: &Problem, outcome: &Outcome, virtual_time: bool) -> Figures 
         errors: None,
         display: outcome.display.as_ref().map(DisplayFigures::of),
         start_up: None,
+        missing_s: None,
         work: outcome.work.counts().map(|(op, n)| (op.name().to_owned(), n)).collect(),
     }
 }

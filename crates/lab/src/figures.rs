@@ -41,6 +41,9 @@ pub struct Figures {
     pub patches: u64,
     /// Operations counted, by name.
     pub work: Vec<(String, u64)>,
+    /// Seconds that processors waited for what their caches missed, all added; none without caches.
+    #[serde(default)]
+    pub missing_s: Option<f64>,
     /// What it tells of its network, if that was asked for.
     #[serde(default)]
     pub network: Option<NetworkFigures>,

@@ -81,6 +81,7 @@ pub struct Pilots<'a> {
 }
 
 /// A mesh and a hemisphere, and what was shot there.
+#[derive(Clone)]
 struct Prepared {
     mesh: f64,
     pixels: u32,
@@ -137,7 +138,7 @@ impl<'a> Pilots<'a> {
             return Ok(Rc::clone(pilot));
         }
         let point = Experiment { processors: 1, reference: None, ..self.point(knobs) };
-        let (problem, overlaps, kept) = self.prepared(knobs, &point)?;
+        let Prepared { problem, overlaps, kept, .. } = self.prepared(knobs, &point)?;
         let run = engine::run(&problem, &point, &kept, Arc::new(|| ()));
         let (figures, radiosity) =
             engine::carry_out(&run, &point, On::Simulation, self.machine, 0, None)?;
@@ -159,11 +160,7 @@ impl<'a> Pilots<'a> {
         Difference::between(&self.patches, &other.means, &one.means, &other.means).relative_l2
     }
 
-    fn prepared(
-        &self,
-        knobs: &Knobs,
-        point: &Experiment,
-    ) -> Result<(Arc<Problem>, Rc<Overlaps>, Arc<KeptShots>), String> {
+    fn prepared(&self, knobs: &Knobs, point: &Experiment) -> Result<Prepared, String> {
         let mut problems = self.problems.borrow_mut();
         let known = |p: &Prepared| p.mesh == knobs.mesh && p.pixels == knobs.pixels;
         let place = match problems.iter().position(known) {
@@ -188,7 +185,6 @@ impl<'a> Pilots<'a> {
                 problems.len() - 1
             }
         };
-        let Prepared { problem, overlaps, kept, .. } = &problems[place];
-        Ok((Arc::clone(problem), Rc::clone(overlaps), Arc::clone(kept)))
+        Ok(problems[place].clone())
     }
 }

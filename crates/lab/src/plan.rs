@@ -67,6 +67,7 @@ impl Plan {
             message_layer: self.runs.iter().any(|run| message_layer::tells(machine(run))),
             accuracy: self.runs.iter().any(|run| run.tuned.is_some()),
             causes: self.runs.iter().any(|run| run.point.error_causes),
+            caches: self.runs.iter().any(|run| !machine(run).processor.caches.is_empty()),
             errors: self.runs.iter().any(|run| run.point.reference.is_some()),
             display: self.runs.iter().any(|run| machine(run).display.is_some()),
             start_up: self.runs.iter().any(|run| machine(run).start_up.is_some()),

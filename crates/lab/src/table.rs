@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::columns;
+use crate::columns::{self, ENVIRONMENTS, PROCESSORS};
+use crate::experiment::Experiment;
 use crate::networks::{self, Finest};
 use crate::plan::{Plan, Run, all_else};
 use crate::runner::{Ending, Endings};
@@ -20,10 +21,12 @@ impl Table {
     /// The results of a plan's runs, in the plan's order.
     pub fn of(plan: &Plan, endings: &Endings) -> Table {
         let columns = columns::names(&plan.axes, plan.also());
-        let one_processor = &one_processor(plan, endings);
+        let one_processor = &alone(plan, endings, PROCESSORS, |point| point.processors);
+        let one_environment = &alone(plan, endings, ENVIRONMENTS, |point| point.local_environments);
         let finest = &networks::finest(plan, endings);
         let row = |(run, ending): (&Run, &Option<Ending>)| {
-            let view = View { plan, run, ending: ending.as_ref(), one_processor, finest };
+            let ending = ending.as_ref();
+            let view = View { plan, run, ending, one_processor, one_environment, finest };
             columns.iter().map(|column| view.cell(column)).collect()
         };
         let rows = plan.runs.iter().zip(&endings.runs).map(row).collect();
@@ -87,7 +90,8 @@ struct View<'a> {
     plan: &'a Plan,
     run: &'a Run,
     ending: Option<&'a Ending>,
-    one_processor: &'a OneProcessor,
+    one_processor: &'a Alone,
+    one_environment: &'a Alone,
     finest: &'a Finest,
 }
 
@@ -101,6 +105,11 @@ impl View<'_> {
             "local_environments" => point.local_environments.to_string(),
             "seed" => point.seed.to_string(),
             "speed_up" => self.speed_up().map_or(String::new(), |s| format!("{s:.4}")),
+            // Figure 11: time with one local environment, all else equal, over this run's time.
+            "gain" => {
+                let gain = self.gain(self.one_environment, ENVIRONMENTS);
+                gain.map_or(String::new(), |gain| format!("{gain:.4}"))
+            }
             "efficiency" => {
                 let share = self.speed_up().map(|s| s / f64::from(point.processors));
                 share.map_or(String::new(), |share| format!("{share:.4}"))
@@ -140,19 +149,21 @@ impl View<'_> {
 
     /// Time on one processor, all else equal, over this run's time.
     fn speed_up(&self) -> Option<f64> {
-        let one = self.one_processor.get(&all_else(self.plan, self.run, "processors"))?;
+        self.gain(self.one_processor, PROCESSORS)
+    }
+
+    fn gain(&self, alone: &Alone, field: &str) -> Option<f64> {
+        let one = alone.get(&all_else(self.plan, self.run, field))?;
         let time = self.ending?.as_ref().ok()?.time_s?;
         (time > 0.0).then_some(one / time)
     }
 }
 
-/// Times of the runs on one processor, by all that is swept besides processors.
-type OneProcessor = BTreeMap<Vec<usize>, f64>;
+/// Times of the runs for which a field is 1, by all that is swept besides it.
+type Alone = BTreeMap<Vec<usize>, f64>;
 
-fn one_processor(plan: &Plan, endings: &Endings) -> OneProcessor {
-    let runs = plan.runs.iter().zip(&endings.runs);
-    let runs = runs.filter(|(run, _)| run.point.processors == 1);
+fn alone(plan: &Plan, endings: &Endings, field: &str, value: fn(&Experiment) -> u32) -> Alone {
+    let runs = plan.runs.iter().zip(&endings.runs).filter(|(run, _)| value(&run.point) == 1);
     let time = |ending: &Option<Ending>| ending.as_ref()?.as_ref().ok()?.time_s;
-    runs.filter_map(|(run, ending)| Some((all_else(plan, run, "processors"), time(ending)?)))
-        .collect()
+    runs.filter_map(|(run, ending)| Some((all_else(plan, run, field), time(ending)?))).collect()
 }

@@ -89,7 +89,7 @@ fn estimate(pilots: &Pilots, target: f64) -> Result<Estimates, String> {
     let stops = stops(pilots, target)?;
     // Other causes are looked at where stopping leaves about the target.
     let plain = stops.iter().filter(|stop| stop.overshoot == 1.0 && !stop.ambient);
-    let enough = plain.clone().find(|stop| stop.error <= target).or(plain.last());
+    let enough = plain.clone().find(|stop| stop.error <= target).or(plain.clone().next_back());
     let knobs = Knobs { threshold: enough.map_or(FIRST_THRESHOLD, |stop| stop.threshold), ..START };
     let at = |mesh, split, pixels| pilots.run(&Knobs { mesh, split, pixels, ..knobs });
 

@@ -7,7 +7,7 @@ mod common;
 use std::fs;
 
 use common::Project;
-use lab::Plan;
+use lab::{Plan, Preparing};
 
 /// The message for an experiment file, with the project's folder taken out of it.
 fn message(project: &Project, arguments: &[&str]) -> String {

@@ -111,6 +111,32 @@ pub(crate) struct ProcessorFile {
     /// Cycles of each operation that the kernels count.
     #[serde(deserialize_with = "without_repetition")]
     pub(crate) operations: BTreeMap<String, Sourced<Quantity<Cycles>>>,
+    /// Data caches. Without them misses cost nothing but what the cycles of the operations hold already.
+    pub(crate) caches: Option<CachesFile>,
+}
+
+/// The caches between a processor and its memory.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "an object that describes caches")]
+pub(crate) struct CachesFile {
+    /// The one nearest to the processor.
+    pub(crate) primary: CacheFile,
+    /// The one behind it.
+    pub(crate) secondary: Option<CacheFile>,
+}
+
+/// A data cache.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "an object that describes a cache")]
+pub(crate) struct CacheFile {
+    /// Bytes that it holds.
+    pub(crate) size: Sourced<Quantity<Bytes>>,
+    /// Bytes that a miss fetches.
+    pub(crate) line: Sourced<Quantity<Bytes>>,
+    /// Lines among which the least recently used one makes room: 1 is direct-mapped.
+    pub(crate) ways: Sourced<NonZeroU16>,
+    /// By how much a miss is slower than a hit, when the next level has the line.
+    pub(crate) miss_time: Sourced<Quantity<Time>>,
 }
 
 /// Memory of a node. What programs keep beyond its capacity is paged out, least recently used first,

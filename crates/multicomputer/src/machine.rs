@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use crate::cache;
 use crate::display::{Display, DisplayFile};
 use crate::fault::{MachineFault, read};
 use crate::file::{LinksFile, LogGpFile, MachineFile, NetworkFile, NodeMemoryFile, ProcessorFile};
@@ -170,7 +171,7 @@ fn validate(file: MachineFile) -> Result<Machine, MachineFault> {
     }
     let (shape, hop_time) = shape(&file)?;
     let node_memory = file.node_memory.as_ref().map(node_memory).transpose()?;
-    let (title, processor) = (file.title, processor(file.processor));
+    let (title, processor) = (file.title, processor(file.processor)?);
     let (rung, parameters) = network(&file.network, hop_time)?;
     let message_layer = file.message_layer.check()?;
     agree(node_memory.as_ref(), &message_layer)?;
@@ -294,9 +295,14 @@ fn links(file: &LinksFile, software: &LogGpParameters) -> Result<LinkParameters,
     Ok(links)
 }
 
-fn processor(file: ProcessorFile) -> Processor {
+fn processor(file: ProcessorFile) -> Result<Processor, MachineFault> {
     let cycles = file.operations.into_iter().map(|(name, cycles)| (name, cycles.value.si));
-    Processor { clock: file.clock.value.si, scale: file.scale.value.0, cycles: cycles.collect() }
+    Ok(Processor {
+        clock: file.clock.value.si,
+        scale: file.scale.value.0,
+        cycles: cycles.collect(),
+        caches: file.caches.as_ref().map_or(Ok(Vec::new()), cache::levels)?,
+    })
 }
 
 /// The memory of a node, if the operating system leaves some.

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use crate::cache::CacheLevel;
+
 /// A processor that takes a fixed number of cycles for each operation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Processor {
@@ -11,6 +13,8 @@ pub struct Processor {
     pub scale: f64,
     /// Cycles of each operation, by name.
     pub cycles: BTreeMap<String, f64>,
+    /// Its caches, the nearest first; none where the cycles hold what misses cost.
+    pub caches: Vec<CacheLevel>,
 }
 
 impl Processor {

@@ -116,6 +116,49 @@ fn an_ideal_network_needs_no_parameters() {
 }
 
 #[test]
+fn caches_are_whole_sets_of_whole_lines() {
+    let known =
+        |value: Value| json!({ "value": value, "provenance": "assumed", "source": "a test" });
+    let level = |size: &str, line: &str, ways: u32| {
+        json!({
+            "size": known(json!(size)), "line": known(json!(line)), "ways": known(json!(ways)),
+            "miss_time": known(json!("40 ns")),
+        })
+    };
+    let caches = |primary: &Value, secondary: Value| {
+        let mut file = paragon();
+        file["processor"]["caches"] = json!({ "primary": primary, "secondary": secondary });
+        read(&file)
+    };
+    let (first, second) = (level("16 KiB", "16 B", 1), level("512 KiB", "64 B", 2));
+    let found = caches(&first, second).unwrap().processor.caches;
+    let [first, second] = &found[..] else { panic!("{found:?}") };
+    assert_eq!((first.size, first.line, first.ways), (16_384, 16, 1));
+    assert_eq!((second.size, second.line, second.ways, second.miss_time), (524_288, 64, 2, 40e-9));
+    for (primary, secondary, message) in [
+        (
+            level("16 KiB", "24 B", 1),
+            Value::Null,
+            "primary.line.value: found 24 B; expected 1 B times a power of two, at most 65536 B",
+        ),
+        (
+            level("16 KiB", "32 B", 1),
+            level("64 KiB", "16 B", 1),
+            "secondary.line.value: found 16 B; expected 32 B times a power of two, at most 65536 B",
+        ),
+        (
+            level("16 KiB", "32 B", 3),
+            Value::Null,
+            "primary.size.value: found 16384 B; expected 96 B times a power of two, at most \
+             1073741824 B",
+        ),
+    ] {
+        let fault = caches(&primary, secondary).unwrap_err().to_string();
+        assert!(fault.ends_with(message), "{fault}");
+    }
+}
+
+#[test]
 fn a_rung_that_the_file_says_too_little_for_is_refused() {
     let mut file = paragon();
     file["network"] = json!({ "model": "ideal" });

@@ -1,5 +1,6 @@
 //! Our rates beside those of the programs that others would use for the same.
 
+mod caches;
 mod callgrind;
 mod command;
 mod cpu;
@@ -14,6 +15,7 @@ mod profile;
 mod rays;
 mod record;
 mod scenes;
+mod shots;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -44,6 +46,23 @@ enum Command {
     },
     /// Sample and count where the time goes, in Table 1 and in the kernel.
     Profile,
+    /// Hold the model of a processor's caches against valgrind's count of misses.
+    Caches {
+        /// The machine whose caches they are.
+        #[arg(default_value = "ultra1")]
+        machine: String,
+        /// Folder for the figures; none are kept without it.
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+    },
+    /// Shoot lights natively, for valgrind to watch.
+    #[command(hide = true)]
+    Shots {
+        /// The scene.
+        scene: String,
+        /// Local environments.
+        environments: u32,
+    },
     /// Do all of this, and `cargo bench`, and write it down.
     Record {
         /// Folder for the figures.
@@ -85,6 +104,14 @@ fn run(command: &Command) -> Result<(), String> {
             let rows = messages::measure(&messages::SIMGRID.build()?, rounds.rounds)?;
             print!("{}", messages::table(&rows));
         }
+        Command::Caches { machine, out } => {
+            let rows = caches::measure(machine)?;
+            print!("{}", caches::table(&rows));
+            if let Some(out) = out {
+                record::write(out, "caches.csv", &record::csv(&rows)?)?;
+            }
+        }
+        Command::Shots { scene, environments } => caches::native(scene, *environments)?,
         Command::Record { out, rounds } => record::record(out, rounds.rounds)?,
         Command::Profile => {
             let folder = tempfile::tempdir().map_err(|error| error.to_string())?;

@@ -52,11 +52,24 @@ pub fn record(out: &Path, rounds: u16) -> Result<(), String> {
     Ok(())
 }
 
-fn csv(rows: &[impl Serialize]) -> Result<String, String> {
+/// Rows as CSV.
+///
+/// # Errors
+/// None that rows of plain fields have.
+pub fn csv(rows: &[impl Serialize]) -> Result<String, String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     rows.iter().try_for_each(|row| writer.serialize(row)).map_err(|error| error.to_string())?;
     let bytes = writer.into_inner().map_err(|error| error.to_string())?;
     String::from_utf8(bytes).map_err(|error| error.to_string())
+}
+
+/// Write one file into a folder.
+///
+/// # Errors
+/// What stands in the way.
+pub fn write(folder: &Path, name: &str, text: &str) -> Result<(), String> {
+    std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    lab::write_file(&folder.join(name), text.as_bytes()).map_err(|error| error.to_string())
 }
 
 /// What `cargo bench` prints.

@@ -130,7 +130,7 @@ impl LocalEnvironment {
     }
 
     /// The number of a polygon among those of this environment.
-    pub(crate) fn piece(&self, polygon: u32) -> Option<u32> {
+    pub fn piece(&self, polygon: u32) -> Option<u32> {
         let found = self.pieces.binary_search_by_key(&polygon, |piece| piece.polygon);
         found.ok().map(|piece| piece as u32)
     }
@@ -141,7 +141,7 @@ impl LocalEnvironment {
     }
 
     /// The patch of a piece at a point where a ray hit its front.
-    fn patch_of(&self, piece: u32, point: DVec3) -> Option<u32> {
+    pub fn patch_of(&self, piece: u32, point: DVec3) -> Option<u32> {
         let piece = &self.pieces[piece as usize];
         if piece.is_back() {
             return None;

@@ -114,6 +114,16 @@ impl Facets {
     /// than `limit`.
     #[inline]
     pub fn hit(&self, facet: u32, ray: &Ray, limit: f64) -> Option<f64> {
+        let t = self.meets_plane(facet, ray, limit)?;
+        let f = self.facet(facet);
+        let point = ray.at(t);
+        let (p, q) = (point[f.kept.0], point[f.kept.1]);
+        self.edges(f).iter().all(|e| e.a * p + e.b * q + e.c >= -self.tolerance).then_some(t)
+    }
+
+    /// The same of the facet's plane.
+    #[inline]
+    pub(crate) fn meets_plane(&self, facet: u32, ray: &Ray, limit: f64) -> Option<f64> {
         let f = self.facet(facet);
         let slope = f.normal.dot(ray.direction);
         if slope == 0.0 {
@@ -122,12 +132,7 @@ impl Facets {
         // Multiplied by the reciprocal, as the grid does: for a facet in a plane of the grid the
         // two distances are then the same number.
         let t = self.above(f, ray.origin) * (1.0 / slope);
-        if !(t > self.tolerance && t <= limit) {
-            return None;
-        }
-        let point = ray.at(t);
-        let (p, q) = (point[f.kept.0], point[f.kept.1]);
-        self.edges(f).iter().all(|e| e.a * p + e.b * q + e.c >= -self.tolerance).then_some(t)
+        (t > self.tolerance && t <= limit).then_some(t)
     }
 
     /// Whether the ray meets the facet's front.

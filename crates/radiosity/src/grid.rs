@@ -151,8 +151,9 @@ impl Grid {
         u64::from(self.starts[place as usize + 1] - self.starts[place as usize])
     }
 
+    /// The place of a cell among all, x running fastest.
     #[inline]
-    pub(crate) fn index(&self, [x, y, z]: [u32; 3]) -> usize {
+    pub fn index(&self, [x, y, z]: [u32; 3]) -> usize {
         let [nx, ny, _] = self.cells();
         (z as usize * ny as usize + y as usize) * nx as usize + x as usize
     }

@@ -201,6 +201,9 @@ impl ComputeNode {
             ((shots, work), work)
         };
         let (shots, work) = process.compute(kernel).await;
+        for part in source {
+            process.fetch(part).await;
+        }
         on_shot();
         self.tally.work += work;
         for (part, shot) in source.iter().zip(&shots) {

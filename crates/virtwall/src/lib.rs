@@ -35,6 +35,7 @@ mod shot_code;
 mod shot_key;
 mod simulation;
 mod start_up;
+mod storage;
 mod threads;
 mod wall_patch;
 
@@ -62,5 +63,6 @@ pub use shooting::{Shooting, SourceSplit};
 pub use shot_key::ShotKey;
 pub use simulation::{simulate, simulate_observed, simulate_over};
 pub use start_up::{StartUpReport, Step, start_up};
+pub use storage::{Layout, Storage};
 pub use threads::run_on_threads;
 pub use wall_patch::WallPatch;

@@ -80,6 +80,8 @@ pub enum Ending {
 pub struct NodeReport {
     /// Time in kernels.
     pub compute: Duration,
+    /// The part of it in which they waited for what was not in the processor's caches.
+    pub missing: Duration,
     /// Time in sending and receiving, waits for room included.
     pub overhead: Duration,
     /// Time spent waiting for pages that were not in memory.
@@ -147,6 +149,11 @@ impl Outcome {
         let mut all = LayerAccount::default();
         self.nodes.iter().for_each(|node| all.add(&node.layer));
         all
+    }
+
+    /// Time in which the kernels of all compute nodes waited for what caches missed.
+    pub fn missing(&self) -> Duration {
+        self.nodes.iter().map(|node| node.missing).sum()
     }
 
     /// Time in kernels as a fraction of all compute nodes' time.

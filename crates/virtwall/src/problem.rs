@@ -111,7 +111,7 @@ impl Problem {
 
     /// A source with what is left of its mask, for each neighbour that it enters (§4.2.3); for none where
     /// virtual walls gather what leaves.
-    pub(crate) fn onward(
+    pub fn onward(
         &self,
         parcel: &Parcel,
         shot: &Shot,

@@ -5,6 +5,7 @@ use multicomputer::{Rank, Segment};
 use radiosity::Work;
 
 use crate::footprint::Footprint;
+use crate::message::Parcel;
 use crate::observer::Observer;
 
 /// A process on a node, simulated or real. Messages are bytes: what is not encoded does not travel.
@@ -15,6 +16,10 @@ pub trait Process {
 
     /// Run a kernel here; the work that it counted is charged to this node.
     async fn compute<T>(&self, job: impl FnOnce() -> (T, Work)) -> T;
+
+    /// Wait for what a shot, just computed, and the search after it find missing in the caches. A
+    /// process whose caches are not modelled takes no notice.
+    async fn fetch(&self, _source: &Parcel) {}
 
     /// The program makes something that it keeps in memory. As with the two that follow, a process
     /// whose memory is not modelled takes no notice.

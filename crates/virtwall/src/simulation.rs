@@ -13,11 +13,13 @@ use crate::compute_node::compute_node;
 use crate::display::DisplayReport;
 use crate::footprint::{Footprint, Thing};
 use crate::interpreter::Interpreter;
+use crate::message::Parcel;
 use crate::observer::{Observer, SharedObserver};
 use crate::outcome::{NodeReport, Outcome};
 use crate::process::Process;
 use crate::run::{Run, RunError};
 use crate::service_node::service_node;
+use crate::storage::{Layout, Storage};
 
 /// What each operation costs a processor, seconds.
 struct Prices([f64; Operation::ALL.len()]);
@@ -43,6 +45,8 @@ struct SimulatedProcess {
     node: Node<Vec<u8>>,
     prices: Rc<Prices>,
     memory: Option<Rc<NodeMemory>>,
+    /// What the processor's caches hold, if it has any.
+    storage: Option<RefCell<Storage>>,
     interpreter: Option<Rc<RefCell<Interpreter>>>,
     /// To the display; the service node's.
     socket: Option<Rc<Socket<Vec<u8>>>>,
@@ -51,6 +55,12 @@ struct SimulatedProcess {
 impl SimulatedProcess {
     fn tell_memory(&self) {
         self.observe(|to| to.memory(self.now(), self.rank(), self.node.bytes_kept()));
+    }
+
+    /// Time that it has waited for what its caches missed.
+    fn missing(&self) -> Duration {
+        let seconds = self.storage.as_ref().map_or(0.0, |storage| storage.borrow().time());
+        Duration::from_seconds_f64(seconds)
     }
 }
 
@@ -63,6 +73,14 @@ impl Process for SimulatedProcess {
         let (result, work) = job();
         self.node.compute(self.prices.time(&work)).await;
         result
+    }
+
+    async fn fetch(&self, source: &Parcel) {
+        if let Some(storage) = &self.storage {
+            let before = self.missing();
+            storage.borrow_mut().shoot(source);
+            self.node.compute(self.missing() - before).await;
+        }
     }
 
     fn keep(&self, segment: Segment, footprint: impl FnOnce() -> Footprint) {
@@ -159,6 +177,8 @@ pub fn simulate_observed(
     let simulation = Simulation::new();
     let handle = simulation.handle();
     let multicomputer = Multicomputer::with_network(&handle, machine, run.processors, network)?;
+    let caches = Some(&machine.processor.caches).filter(|caches| !caches.is_empty());
+    let storage = |caches| RefCell::new(Storage::new(&run.problem, Layout::PLAIN_C, caches));
     let interpreter = observer.map(|observer| {
         let interpreter = Rc::new(RefCell::new(Interpreter::new(observer, run.processors + 1)));
         let observer: Rc<RefCell<dyn MachineObserver<Vec<u8>>>> = interpreter.clone();
@@ -169,6 +189,7 @@ pub fn simulate_observed(
         node: multicomputer.node(rank),
         prices: Rc::clone(&prices),
         memory: memory.clone(),
+        storage: caches.map(|caches| storage(caches)),
         interpreter: interpreter.clone(),
         socket: None,
     };
@@ -178,7 +199,8 @@ pub fn simulate_observed(
         handle.spawn(format!("compute node {rank}"), async move {
             let node = compute_node(&process, node).await;
             process.node.finish();
-            finished.borrow_mut().push((process.rank(), process.now(), node));
+            let (rank, now, missing) = (process.rank(), process.now(), process.missing());
+            finished.borrow_mut().push((rank, now, node, missing));
         });
     }
     let mut service = process(run.processors);
@@ -192,11 +214,13 @@ pub fn simulate_observed(
     simulation.run()?;
     let mut finished = finished.take();
     finished.sort_unstable_by_key(|(rank, ..)| *rank);
-    let time = finished.iter().map(|(_, time, _)| *time).max().unwrap_or(Time::ZERO);
-    let nodes: Vec<_> = finished.into_iter().map(|(_, _, node)| node).collect();
+    let time = finished.iter().map(|(_, time, ..)| *time).max().unwrap_or(Time::ZERO);
+    let (nodes, missing): (Vec<_>, Vec<_>) =
+        finished.into_iter().map(|(_, _, node, missing)| (node, missing)).unzip();
     let accounts = multicomputer.accounts();
-    let reports = accounts.iter().take(nodes.len()).map(|account| NodeReport {
+    let reports = accounts.iter().zip(missing).map(|(account, missing)| NodeReport {
         compute: account.compute,
+        missing,
         overhead: account.overhead(),
         paging: account.paging,
         memory_high_water: account.memory_high_water,

@@ -1,0 +1,155 @@
+//! A processor's caches, line by line.
+
+use crate::fault::MachineFault;
+use crate::file::CachesFile;
+
+/// Largest line and cache, bytes: beyond them a file can only be a slip.
+const LONGEST_LINE: u64 = 65_536;
+const LARGEST_CACHE: u64 = 1 << 30;
+
+/// One level of a memory hierarchy.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CacheLevel {
+    /// Bytes that it holds.
+    pub size: u64,
+    /// Bytes that a miss fetches.
+    pub line: u64,
+    /// Lines among which the least recently used one makes room.
+    pub ways: u64,
+    /// Seconds by which a miss is slower than a hit, when the next level has the line.
+    pub miss_time: f64,
+}
+
+/// The levels of a machine file: a line and a number of sets are powers of two, and no line is shorter
+/// than those of the level before.
+pub(crate) fn levels(files: &CachesFile) -> Result<Vec<CacheLevel>, MachineFault> {
+    let mut levels: Vec<CacheLevel> = Vec::new();
+    let secondary = files.secondary.as_ref().map(|file| ("secondary", file));
+    for (cache, file) in [("primary", &files.primary)].into_iter().chain(secondary) {
+        let bytes = |name: &str, found: f64, unit: u64, most: u64| {
+            let units = found / unit as f64;
+            if units.fract() == 0.0 && (units as u64).is_power_of_two() && found <= most as f64 {
+                return Ok(found as u64);
+            }
+            let place = format!("processor.caches.{cache}.{name}.value");
+            let expected = format!("expected {unit} B times a power of two, at most {most} B");
+            Err(MachineFault::at(&place, format!("found {found} B; {expected}")))
+        };
+        let ways = u64::from(file.ways.value.get());
+        let shortest = levels.last().map_or(1, |level| level.line);
+        let line = bytes("line", file.line.value.si, shortest, LONGEST_LINE)?;
+        let size = bytes("size", file.size.value.si, line * ways, LARGEST_CACHE)?;
+        levels.push(CacheLevel { size, line, ways, miss_time: file.miss_time.value.si });
+    }
+    Ok(levels)
+}
+
+/// What the caches of one processor hold, and how often they missed.
+#[derive(Clone, Debug)]
+pub struct Caches {
+    levels: Vec<Cache>,
+}
+
+#[derive(Clone, Debug)]
+struct Cache {
+    level: CacheLevel,
+    /// A line's bytes and the number of sets less one, as shift and mask.
+    line: u32,
+    sets: u64,
+    /// The line held by each way of each set, the one used last first.
+    held: Vec<u64>,
+    misses: u64,
+}
+
+/// No line is that far up.
+const NONE: u64 = u64::MAX;
+
+impl Caches {
+    /// Empty caches, the nearest level first.
+    pub fn new(levels: &[CacheLevel]) -> Caches {
+        let cache = |level: &CacheLevel| Cache {
+            line: level.line.trailing_zeros(),
+            sets: level.size / level.line / level.ways - 1,
+            held: vec![NONE; (level.size / level.line) as usize],
+            misses: 0,
+            level: level.clone(),
+        };
+        Caches { levels: levels.iter().map(cache).collect() }
+    }
+
+    /// Read or write some bytes, at least one.
+    #[inline]
+    pub fn touch(&mut self, address: u64, bytes: u64) {
+        let Some((first, next)) = self.levels.split_first_mut() else { return };
+        for line in address >> first.line..=(address + bytes - 1) >> first.line {
+            if !first.touch(line) {
+                let address = line << first.line;
+                next.iter_mut().all(|cache| !cache.touch(address >> cache.line));
+            }
+        }
+    }
+
+    /// Misses of each level so far.
+    pub fn misses(&self) -> impl Iterator<Item = u64> + '_ {
+        self.levels.iter().map(|cache| cache.misses)
+    }
+
+    /// Seconds that all misses so far cost.
+    pub fn time(&self) -> f64 {
+        self.levels.iter().map(|cache| cache.misses as f64 * cache.level.miss_time).sum()
+    }
+}
+
+impl Cache {
+    /// Use a line; whether it was there.
+    #[inline]
+    fn touch(&mut self, line: u64) -> bool {
+        let ways = self.level.ways as usize;
+        let first = (line & self.sets) as usize * ways;
+        let held = &mut self.held[first..first + ways];
+        if held[0] == line {
+            return true;
+        }
+        let found = held.iter().position(|&other| other == line);
+        let gone = found.unwrap_or(held.len() - 1);
+        held[..=gone].rotate_right(1);
+        held[0] = line;
+        self.misses += u64::from(found.is_none());
+        found.is_some()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn level(size: u64, line: u64, ways: u64) -> CacheLevel {
+        CacheLevel { size, line, ways, miss_time: 1.0 }
+    }
+
+    fn misses(levels: &[CacheLevel], touches: &[(u64, u64)]) -> Vec<u64> {
+        let mut caches = Caches::new(levels);
+        touches.iter().for_each(|&(address, bytes)| caches.touch(address, bytes));
+        caches.misses().collect()
+    }
+
+    #[test]
+    fn lines_of_one_set_displace_each_other_where_there_is_one_way() {
+        let touches = [(0, 8), (256, 8), (0, 8), (256, 8)];
+        assert_eq!(misses(&[level(256, 32, 1)], &touches), [4]);
+        assert_eq!(misses(&[level(256, 32, 2)], &touches), [2]);
+    }
+
+    #[test]
+    fn the_least_recently_used_line_makes_room() {
+        let touches = [(0, 1), (128, 1), (0, 1), (256, 1), (0, 1), (128, 1)];
+        assert_eq!(misses(&[level(256, 32, 2)], &touches), [4]);
+    }
+
+    #[test]
+    fn a_touch_takes_every_line_that_it_reaches_into_and_the_next_level_sees_misses_alone() {
+        let levels = [level(128, 16, 1), level(1024, 64, 1)];
+        assert_eq!(misses(&levels, &[(8, 64), (8, 64)]), [5, 2]);
+        assert_eq!(misses(&levels, &[(0, 16), (128, 16), (0, 16)]), [3, 2]);
+    }
+}

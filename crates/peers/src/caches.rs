@@ -1,0 +1,248 @@
+//! Misses as the model of a processor's caches has them, beside those that valgrind counts of the same
+//! shots in caches of the same geometry.
+
+use std::fmt::Write;
+use std::process::Command;
+use std::sync::Arc;
+
+use multicomputer::CacheLevel;
+use serde::Serialize;
+use virtwall::{Layout, Parcel, Problem, Storage};
+
+use crate::command::run;
+use crate::cpu::rounded;
+use crate::shots;
+
+/// Scenes and how they are cut.
+const SCENES: [&str; 3] = ["office", "rooms", "building"];
+const ENVIRONMENTS: [u32; 3] = [1, 8, 56];
+/// Valgrind's shortest line, bytes: what is shorter is made as long, on both sides.
+const SHORTEST_LINE: u64 = 32;
+
+/// Lights shot in each; the first one fills the caches and is not counted.
+const LIGHTS: usize = 3;
+const UNCOUNTED: usize = 1;
+
+/// Where arrays begin in memory is luck, and decides which of them fall on each other in a direct-mapped
+/// cache. Of several placements the median counts, valgrind's and the model's: bytes from which the
+/// allocator gives an array pages of its own, and bytes that the model leaves between arrays.
+const PLACEMENTS: [u64; 3] = [4_096, 131_072, 1 << 30];
+const GAPS: [u64; 7] = [16, 1_040, 2_064, 3_088, 5_008, 6_032, 7_056];
+
+/// The native kernel's records. Its polygons are 120 B, of which a test of the plane reads the better
+/// part. Frames of the three functions inside each other (1.4 KB as compiled) and the planes of the grid
+/// are in constant use.
+const NATIVE: Layout = Layout {
+    direction: 24,
+    cell: [4, 8],
+    entry: 4,
+    plane: [120, 88],
+    edges: [96, 96],
+    axes: [80, 80],
+    slot: 4,
+    patch: [304, 96, 16],
+    frames: [2_048, 144, 72],
+    gap: 0,
+    by_environment: false,
+};
+
+/// One scene in the caches of one machine.
+#[derive(Serialize)]
+pub struct Row {
+    /// The machine.
+    pub machine: String,
+    /// The scene.
+    pub scene: String,
+    /// Local environments.
+    pub local_environments: u32,
+    /// The level, 1 nearest to the processor.
+    pub level: usize,
+    /// Shots, through an environment each, the uncounted ones included.
+    pub shots: usize,
+    /// Loads and stores of the native kernel, millions.
+    pub references: f64,
+    /// Per cent of them that miss this level, as valgrind counts them.
+    pub percent: f64,
+    /// The same as the model has it.
+    pub percent_model: f64,
+    /// The model's over valgrind's.
+    pub ratio: f64,
+    /// The least and the greatest that valgrind counts, as the arrays lie, over its median.
+    pub spread: String,
+    /// The same of the model.
+    pub spread_model: String,
+}
+
+/// Data references and misses of both levels.
+type Counts = [u64; 3];
+
+/// Measure every scene and cut in the caches of a machine.
+///
+/// # Errors
+/// When valgrind does not run, a scene is missing, or the machine has not two levels.
+pub fn measure(machine: &str) -> Result<Vec<Row>, String> {
+    let levels = levels(machine)?;
+    let mut all = Vec::new();
+    for scene in SCENES {
+        for environments in ENVIRONMENTS {
+            let rows = rows(machine, &levels, scene, environments)?;
+            let ratios: Vec<String> = rows.iter().map(|row| row.ratio.to_string()).collect();
+            eprintln!("{scene} {environments}: {}", ratios.join(" "));
+            all.extend(rows);
+        }
+    }
+    Ok(all)
+}
+
+/// The two levels of a machine's caches, as valgrind can have them.
+fn levels(machine: &str) -> Result<Vec<CacheLevel>, String> {
+    let plan = shots::plan(&[&format!("machine={machine}")])?;
+    let mut levels = plan.machines[0].machine.processor.caches.clone();
+    if levels.len() != 2 {
+        return Err(format!("{machine}: found {} levels of caches; expected 2", levels.len()));
+    }
+    levels.iter_mut().for_each(|level| level.line = level.line.max(SHORTEST_LINE));
+    Ok(levels)
+}
+
+fn rows(
+    machine: &str,
+    levels: &[CacheLevel],
+    scene: &str,
+    environments: u32,
+) -> Result<Vec<Row>, String> {
+    let counts = PLACEMENTS.map(|placement| counted(scene, environments, levels, placement));
+    let counts = counts.into_iter().collect::<Result<Vec<Counts>, String>>()?;
+    let problem = shots::problem(scene, environments)?;
+    let shots = shots::of_lights(&problem, LIGHTS);
+    let models = GAPS.map(|gap| modelled(&problem, &shots, levels, gap));
+    let [references, ..] = counts[0];
+    let percent = |misses: u64| rounded(100.0 * misses as f64 / references as f64);
+    let row = |level: usize| {
+        let counted = Spread::of(counts.iter().map(|counts| counts[level + 1]));
+        let modelled = Spread::of(models.iter().map(|misses| misses[level]));
+        Row {
+            machine: machine.to_owned(),
+            scene: scene.to_owned(),
+            local_environments: environments,
+            level: level + 1,
+            shots: shots.len(),
+            references: rounded(references as f64 / 1e6),
+            percent: percent(counted.median),
+            percent_model: percent(modelled.median),
+            ratio: rounded(modelled.median as f64 / counted.median as f64),
+            spread: counted.text(),
+            spread_model: modelled.text(),
+        }
+    };
+    Ok((0..levels.len()).map(row).collect())
+}
+
+/// What valgrind counts of the native kernel.
+fn counted(
+    scene: &str,
+    environments: u32,
+    levels: &[CacheLevel],
+    placement: u64,
+) -> Result<Counts, String> {
+    let own = std::env::current_exe().map_err(|error| error.to_string())?;
+    let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
+    let output = folder.path().join("callgrind.out");
+    let mut valgrind = Command::new("valgrind");
+    valgrind.args(["--quiet", "--tool=callgrind", "--cache-sim=yes", "--I1=16384,2,32"]);
+    for (name, CacheLevel { size, ways, line, .. }) in ["D1", "LL"].iter().zip(levels) {
+        valgrind.arg(format!("--{name}={size},{ways},{line}"));
+    }
+    valgrind.arg("--toggle-collect=peers::shots::counted");
+    valgrind.arg(format!("--callgrind-out-file={}", output.display()));
+    valgrind.env("MALLOC_MMAP_THRESHOLD_", placement.to_string());
+    valgrind.arg(own).args(["shots", scene, &environments.to_string()]);
+    run(&mut valgrind, "valgrind")?;
+    let text = std::fs::read_to_string(&output).map_err(|error| error.to_string())?;
+    totals(&text).ok_or_else(|| "valgrind: found no totals".to_owned())
+}
+
+/// Data references and misses from the totals of callgrind's output.
+fn totals(text: &str) -> Option<Counts> {
+    let line = |name: &str| text.lines().find_map(|line| line.strip_prefix(name));
+    let events: Vec<&str> = line("events: ")?.split(' ').collect();
+    let totals: Vec<u64> =
+        line("totals: ")?.split(' ').map(|count| count.parse().unwrap_or(0)).collect();
+    let of = |name: &str| {
+        let place = events.iter().position(|event| *event == name);
+        place.and_then(|place| totals.get(place)).copied().unwrap_or(0)
+    };
+    Some([of("Dr") + of("Dw"), of("D1mr") + of("D1mw"), of("DLmr") + of("DLmw")])
+}
+
+/// Shots that are not counted, of so many.
+fn uncounted(shots: &[Parcel]) -> usize {
+    shots.len() * UNCOUNTED / LIGHTS
+}
+
+/// Misses of each level as the model has them.
+fn modelled(problem: &Arc<Problem>, shots: &[Parcel], levels: &[CacheLevel], gap: u64) -> Vec<u64> {
+    let mut storage = Storage::new(problem, Layout { gap, ..NATIVE }, levels);
+    let (first, others) = shots.split_at(uncounted(shots));
+    first.iter().for_each(|parcel| storage.shoot(parcel));
+    let before = storage.misses();
+    others.iter().for_each(|parcel| storage.shoot(parcel));
+    storage.misses().iter().zip(before).map(|(after, before)| after - before).collect()
+}
+
+/// Misses as arrays lie.
+struct Spread {
+    least: u64,
+    median: u64,
+    greatest: u64,
+}
+
+impl Spread {
+    fn of(misses: impl Iterator<Item = u64>) -> Spread {
+        let mut all: Vec<u64> = misses.collect();
+        all.sort_unstable();
+        Spread { least: all[0], median: all[all.len() / 2], greatest: all[all.len() - 1] }
+    }
+
+    fn text(&self) -> String {
+        let [least, greatest] = [self.least, self.greatest].map(|n| n as f64 / self.median as f64);
+        format!("{least:.2}–{greatest:.2}")
+    }
+}
+
+/// The native program that valgrind watches.
+///
+/// # Errors
+/// What is wrong with the scene.
+pub fn native(scene: &str, environments: u32) -> Result<(), String> {
+    let problem = shots::problem(scene, environments)?;
+    let shots = shots::of_lights(&problem, LIGHTS);
+    println!("{}", shots::carry_out(&problem, &shots, uncounted(&shots)));
+    Ok(())
+}
+
+/// What was found, for people.
+pub fn table(rows: &[Row]) -> String {
+    let mut text = String::from(
+        "\n| machine | scene | environments | shots | million references | level | misses, % | model, % | \
+         model over valgrind |\n|---|---|---:|---:|---:|---:|---:|---:|---:|\n",
+    );
+    for row in rows {
+        let _ = writeln!(
+            text,
+            "| {} | {} | {} | {} | {:.0} | {} | {:.3} ({}) | {:.3} ({}) | {:.2} |",
+            row.machine,
+            row.scene,
+            row.local_environments,
+            row.shots,
+            row.references,
+            row.level,
+            row.percent,
+            row.spread,
+            row.percent_model,
+            row.spread_model,
+            row.ratio,
+        );
+    }
+    text
+}

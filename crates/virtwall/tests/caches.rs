@@ -1,0 +1,89 @@
+//! Caches of the virtual processors: what they cost a run, and nothing else.
+
+#![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
+
+mod common;
+
+use std::sync::Arc;
+
+use common::{problem, rules, same, two_rooms};
+use desim::Duration;
+use multicomputer::{CacheLevel, Machine};
+use radiosity::{Light, Mask, Operation, Record, shoot_plainly, trace};
+use virtwall::{KeptShots, Outcome, Rules, Run, simulate};
+
+/// The Paragon with caches of so many bytes, none: without caches.
+fn on(run: &Run, size: Option<u64>) -> Outcome {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../machines/paragon-xps.json");
+    let mut machine = Machine::from_json(&std::fs::read_to_string(path).unwrap(), path).unwrap();
+    let level = |size| CacheLevel { size, line: 32, ways: 2, miss_time: 1e-6 };
+    machine.processor.caches = size.map(level).into_iter().collect();
+    simulate(run, &machine).unwrap()
+}
+
+fn rooms(processors: usize) -> Run {
+    Run {
+        problem: Arc::new(problem(two_rooms(), [8, 4, 4], [4, 2, 1], 1_024, 0.5)),
+        processors,
+        // What is collected as time goes by would differ.
+        rules: Rules { collect_every: Duration::from_seconds_f64(1e6), ..rules() },
+        kept: Arc::new(KeptShots::new(1 << 30)),
+        on_shot: Arc::new(|| ()),
+    }
+}
+
+fn missing(outcome: &Outcome) -> Duration {
+    outcome.nodes.iter().map(|node| node.missing).sum()
+}
+
+#[test]
+fn misses_take_their_time_and_change_nothing_else() {
+    let run = rooms(1);
+    let (without, small, large) = (on(&run, None), on(&run, Some(4_096)), on(&run, Some(1 << 22)));
+    assert_eq!(missing(&without), Duration::ZERO);
+    assert!(missing(&large) > Duration::ZERO && missing(&small) > missing(&large) * 2);
+    for mut with in [small, large] {
+        let missing = missing(&with);
+        assert_eq!(with.time - without.time, missing);
+        assert_eq!(with.nodes[0].compute - without.nodes[0].compute, missing);
+        (with.time, with.nodes) = (without.time, without.nodes.clone());
+        same(&with, &without);
+    }
+}
+
+#[test]
+fn kept_shots_and_processors_do_not_change_what_misses() {
+    let run = rooms(3);
+    let (first, again) = (on(&run, Some(4_096)), on(&run, Some(4_096)));
+    same(&first, &again);
+    assert!(first.nodes.iter().all(|node| node.missing > Duration::ZERO));
+}
+
+#[test]
+fn a_trace_touches_what_the_slow_kernel_counts() {
+    let problem = problem(two_rooms(), [8, 4, 4], [1, 1, 1], 1_024, 0.5);
+    let environment = &problem.environments[0];
+    let (space, hemisphere) = (&problem.space, &problem.hemisphere);
+    let light = Light::new(space, environment);
+    let mask = Mask::all(hemisphere.pixels());
+    let (mut shots, mut tests) = (0, 0);
+    for patch in (0..environment.patches.len() as u32).step_by(7) {
+        let source = light.source(space, environment, 0, patch);
+        let work = shoot_plainly(space, environment, hemisphere, &source, &mask).work;
+        let (mut rays, mut cells, mut listed, mut hits) = (0, 0, 0, 0);
+        trace(space, environment, hemisphere, &source, &mask, |record| match record {
+            Record::Direction(_) => rays += 1,
+            Record::Cell { polygons, .. } => {
+                (cells, listed) = (cells + 1, listed + u64::from(polygons));
+            }
+            Record::Plane(polygon) => assert_ne!(polygon, source.polygon),
+            Record::Edges(_) => tests += 1,
+            Record::Hit { .. } => hits += 1,
+        });
+        let counted = [Operation::Ray, Operation::CellStep, Operation::PolygonTest];
+        assert_eq!([rays, cells, listed], counted.map(|operation| work.of(operation)));
+        assert!(hits <= work.of(Operation::Hit) && hits > 0);
+        shots += 1;
+    }
+    assert!(shots > 5 && tests > 0);
+}
