@@ -189,7 +189,9 @@ fn every_machine_is_shown_and_measured() {
         assert!(text.contains(" (s) on a "), "{text}");
         let (code, text, stderr) = virtwall(&root(), &["machine", "bench", &machine]);
         assert_eq!((code, stderr.as_str()), (0, ""), "{machine}");
-        assert!(text.contains("\nPublished: "), "{text}");
+        // Two are there for their processors' caches, and nothing published of their networks is known.
+        let caches = ["ultra1.json", "origin2000.json"].iter().any(|name| machine.ends_with(name));
+        assert!(caches || text.contains("\nPublished: "), "{text}");
     }
     let hub = |name| virtwall(&root(), &["machine", "show", name]).1;
     let bus = hub("workstations");
