@@ -49,12 +49,13 @@ fn every_field_is_described_and_every_leaf_can_be_swept() {
             "display",
             "hemisphere",
             "virtual_walls",
+            "source_split",
             "stop",
             "compare_with",
             "plots"
         ]
     );
-    for group in ["node_memory", "display", "hemisphere", "virtual_walls", "stop"] {
+    for group in ["node_memory", "display", "hemisphere", "virtual_walls", "source_split", "stop"] {
         for (name, field) in fields[group]["properties"].as_object().unwrap() {
             assert_eq!(field["anyOf"][1]["type"], "array", "{group}.{name}");
         }
