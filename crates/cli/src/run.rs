@@ -111,7 +111,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let memory = arguments.memory.unwrap_or_else(lab::half_of_free_memory);
     let pilots = Pilots::new(arguments.quiet);
     let on_pilot = |scene: &str, target, runs| pilots.note(scene, target, runs);
-    let preparing = Preparing { threads, memory, on_pilot: &on_pilot };
+    let preparing = Preparing { threads, memory, finding: true, on_pilot: &on_pilot };
     let plan = Arc::new(Plan::read(&arguments.file, &set, &preparing)?);
     pilots.end();
     arguments.viewer.check(&plan).map_err(Exit::bad_input)?;

@@ -32,7 +32,7 @@ pub fn check(path: &Path) -> Result<String, Fault> {
     let document = Document::parse(path.display().to_string(), text)?;
     let has = |key: &str| document.value.get(key).is_some();
     if has("scene") || has("plots") {
-        let plan = Plan::read(path, &[], &Preparing::default())?;
+        let plan = Plan::read(path, &[], &Preparing { finding: false, ..Preparing::default() })?;
         let (runs, problems) = (plan.runs.len(), plan.problems.len());
         return Ok(format!("an experiment, {runs} runs of {problems} meshed scenes"));
     }

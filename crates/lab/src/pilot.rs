@@ -11,7 +11,7 @@ use reference::{Difference, Overlaps, Patches};
 use virtwall::{KeptShots, Problem};
 
 use crate::engine::{self, On};
-use crate::experiment::{Directions, Experiment};
+use crate::experiment::{Directions, Experiment, Selection};
 use crate::knobs::SplitFields;
 use crate::quantity::{Fraction, Length};
 use crate::settings::{Settings, WrongField};
@@ -19,13 +19,13 @@ use crate::settings::{Settings, WrongField};
 /// A setting of the knobs that trade accuracy for time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Knobs {
-    /// Patches that do not emit are so many times as long as the experiment, or the scene, asks for.
+    /// Patches are so many times as long as the experiment, or the scene, asks for.
     pub mesh: f64,
     /// Rays a source.
     pub pixels: u32,
     /// A patch is cut into so many sources along each of its two directions.
     pub split: u32,
-    /// The share of the brightest patch below which none is shot, on the mesh that is asked for.
+    /// The share of the brightest patch below which none is shot, both on the mesh that is asked for.
     pub threshold: f64,
     /// What a patch that does not emit shoots, over what it has not shot.
     pub overshoot: f64,
@@ -33,22 +33,14 @@ pub struct Knobs {
     pub ambient: bool,
 }
 
-impl Knobs {
-    /// The share of the brightest patch below which none is shot. It emits, and is as large on every
-    /// mesh; the others have a share of its light by their area.
-    fn patch_threshold(&self) -> f64 {
-        self.threshold * self.mesh * self.mesh
-    }
-}
-
 impl fmt::Display for Knobs {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Knobs { mesh, pixels, split, overshoot, ambient, .. } = self;
+        let Knobs { mesh, pixels, split, threshold, overshoot, ambient } = self;
         write!(
             f,
             "{pixels} rays a source, sources {split} x {split} a patch, patches {mesh} times as "
         )?;
-        write!(f, "long, shot down to {:.4} %", 100.0 * self.patch_threshold())?;
+        write!(f, "long, shot down to {:.4} %", 100.0 * threshold)?;
         if *overshoot != 1.0 {
             write!(f, " and {overshoot} times over")?;
         }
@@ -76,6 +68,8 @@ pub struct Pilots<'a> {
     memory: usize,
     watch: &'a dyn Fn(usize),
     patches: Patches,
+    /// By which the threshold is told.
+    brightest: f64,
     problems: RefCell<Vec<Prepared>>,
     runs: RefCell<Vec<(Knobs, Rc<Pilot>)>>,
 }
@@ -85,6 +79,7 @@ pub struct Pilots<'a> {
 struct Prepared {
     mesh: f64,
     pixels: u32,
+    brightest: f64,
     problem: Arc<Problem>,
     overlaps: Rc<Overlaps>,
     kept: Arc<KeptShots>,
@@ -106,18 +101,39 @@ impl<'a> Pilots<'a> {
     ) -> Result<Pilots<'a>, WrongField> {
         let problem = engine::problem(scene, settings)?;
         let patches = Patches::of_all(&problem.space, &problem.environments);
-        let settings = settings.clone();
+        let (settings, brightest) = (settings.clone(), brightest(&problem));
         let (problems, runs) = (RefCell::default(), RefCell::default());
-        Ok(Pilots { base, settings, scene, machine, memory, watch, patches, problems, runs })
+        Ok(Pilots {
+            base,
+            settings,
+            scene,
+            machine,
+            memory,
+            watch,
+            patches,
+            brightest,
+            problems,
+            runs,
+        })
     }
 
     /// The experiment with its knobs set.
-    pub fn point(&self, knobs: &Knobs) -> Experiment {
+    ///
+    /// # Errors
+    /// If there is no such mesh or hemisphere.
+    pub fn point(&self, knobs: &Knobs) -> Result<Experiment, String> {
+        // Patches have energies by their areas; the brightest may be as large on every mesh.
+        let share = match self.base.selection {
+            Selection::Energy => {
+                self.brightest * knobs.mesh * knobs.mesh / self.prepared(knobs)?.brightest
+            }
+            Selection::DeltaRadiosity => 1.0,
+        };
         let length = |metres: f64| Length::parse(&format!("{metres} m")).ok();
         let mut point = self.base.clone();
         point.accuracy = None;
         point.patch_size = length(self.settings.patch_size * knobs.mesh);
-        point.emitter_patch_size = length(self.settings.emitter_patch_size);
+        point.emitter_patch_size = length(self.settings.emitter_patch_size * knobs.mesh);
         point.hemisphere.directions = Directions::Fibonacci;
         point.hemisphere.pixels = knobs.pixels;
         point.source_split = SplitFields { most: knobs.split, ..SplitFields::default() };
@@ -125,8 +141,8 @@ impl<'a> Pilots<'a> {
         point.ambient = knobs.ambient;
         let percent = |share: f64| Fraction::parse(&format!("{} %", 100.0 * share));
         point.stop.patch_threshold =
-            percent(knobs.patch_threshold()).unwrap_or(point.stop.patch_threshold);
-        point
+            percent(knobs.threshold * share).unwrap_or(point.stop.patch_threshold);
+        Ok(point)
     }
 
     /// The run of a setting.
@@ -137,8 +153,8 @@ impl<'a> Pilots<'a> {
         if let Some((_, pilot)) = self.runs.borrow().iter().find(|(known, _)| known == knobs) {
             return Ok(Rc::clone(pilot));
         }
-        let point = Experiment { processors: 1, reference: None, ..self.point(knobs) };
-        let Prepared { problem, overlaps, kept, .. } = self.prepared(knobs, &point)?;
+        let point = Experiment { processors: 1, reference: None, ..self.point(knobs)? };
+        let Prepared { problem, overlaps, kept, .. } = self.prepared(knobs)?;
         let run = engine::run(&problem, &point, &kept, Arc::new(|| ()));
         let (figures, radiosity) =
             engine::carry_out(&run, &point, On::Simulation, self.machine, 0, None)?;
@@ -160,7 +176,7 @@ impl<'a> Pilots<'a> {
         Difference::between(&self.patches, &other.means, &one.means, &other.means).relative_l2
     }
 
-    fn prepared(&self, knobs: &Knobs, point: &Experiment) -> Result<Prepared, String> {
+    fn prepared(&self, knobs: &Knobs) -> Result<Prepared, String> {
         let mut problems = self.problems.borrow_mut();
         let known = |p: &Prepared| p.mesh == knobs.mesh && p.pixels == knobs.pixels;
         let place = match problems.iter().position(known) {
@@ -168,7 +184,8 @@ impl<'a> Pilots<'a> {
             None => {
                 let mut settings = self.settings.clone();
                 settings.patch_size *= knobs.mesh;
-                settings.directions = point.hemisphere.directions;
+                settings.emitter_patch_size *= knobs.mesh;
+                settings.directions = Directions::Fibonacci;
                 settings.pixels = knobs.pixels;
                 let problem = engine::problem(self.scene, &settings);
                 let problem = problem.map_err(|(field, message)| format!("{field}: {message}"))?;
@@ -178,6 +195,7 @@ impl<'a> Pilots<'a> {
                 problems.push(Prepared {
                     mesh: knobs.mesh,
                     pixels: knobs.pixels,
+                    brightest: brightest(&problem),
                     problem,
                     overlaps: Rc::new(Overlaps::new(&self.patches, &own)),
                     kept: Arc::new(KeptShots::new(self.memory)),
@@ -187,4 +205,13 @@ impl<'a> Pilots<'a> {
         };
         Ok(problems[place].clone())
     }
+}
+
+/// What the brightest patch has to shoot at the start, W.
+fn brightest(problem: &Problem) -> f64 {
+    let powers = problem.environments.iter().flat_map(|environment| {
+        let patches = 0..environment.patches.len() as u32;
+        patches.map(|patch| environment.emitted_power(&problem.space, patch).element_sum())
+    });
+    powers.fold(f64::MIN_POSITIVE, f64::max)
 }

@@ -42,13 +42,15 @@ pub struct Preparing<'a> {
     pub threads: usize,
     /// Host memory for shots of pilot runs, bytes.
     pub memory: usize,
+    /// Whether to find the knobs that an experiment leaves open; else they stand at their defaults.
+    pub finding: bool,
     /// Hears of every pilot run: scene, accuracy asked for, pilot runs made for both.
     pub on_pilot: &'a (dyn Fn(&str, f64, usize) + Sync),
 }
 
 impl Default for Preparing<'_> {
     fn default() -> Self {
-        Preparing { threads: 1, memory: 1 << 28, on_pilot: &|_, _, _| () }
+        Preparing { threads: 1, memory: 1 << 28, finding: true, on_pilot: &|_, _, _| () }
     }
 }
 
@@ -127,7 +129,9 @@ impl Planner<'_> {
         let drafts = self.sweep.points.iter().map(|point| self.draft(point));
         let mut drafts = drafts.collect::<Result<Vec<Draft>, Fault>>()?;
         let scenes = self.load()?;
-        self.tune(&mut drafts, &scenes)?;
+        if self.preparing.finding {
+            self.tune(&mut drafts, &scenes)?;
+        }
         let (problems, problem_of) = self.problems(&drafts, &scenes)?;
         let runs = drafts.into_iter().zip(problem_of).map(|(draft, problem)| {
             let stored = self.reference(&draft, &scenes[draft.scene].0, &problems[problem])?;
@@ -347,7 +351,12 @@ impl Planner<'_> {
         let pilots = pilots.map_err(refuse)?;
         let tuned =
             tune(&pilots, target).map_err(|message| refuse(("accuracy.relative_l2", message)))?;
-        Ok((pilots.point(&tuned.knobs), tuned))
+        Ok((
+            pilots
+                .point(&tuned.knobs)
+                .map_err(|message| refuse(("accuracy.relative_l2", message)))?,
+            tuned,
+        ))
     }
 
     /// Reads all scenes, each once.
