@@ -65,7 +65,10 @@ impl Plan {
             memory: self.runs.iter().any(|run| machine(run).node_memory.is_some()),
             media: self.problems.iter().any(|p| !p.problem.space.scene.media.is_empty()),
             message_layer: self.runs.iter().any(|run| message_layer::tells(machine(run))),
-            accuracy: self.runs.iter().any(|run| run.tuned.is_some()),
+            accuracy: self
+                .runs
+                .iter()
+                .any(|run| run.tuned.is_some() || run.point.accuracy.is_some()),
             causes: self.runs.iter().any(|run| run.point.error_causes),
             caches: self.runs.iter().any(|run| !machine(run).processor.caches.is_empty()),
             errors: self.runs.iter().any(|run| run.point.reference.is_some()),
