@@ -7,35 +7,15 @@ use multicomputer::{Machine, Model};
 use radiosity::Rgb;
 use radiosity::glam::DVec3;
 use reference::{Centres, parallel};
-use serde::{Deserialize, Serialize};
 use virtwall::{KeptShots, Problem};
 
 use crate::answer::Answer;
 use crate::engine::{self, On};
+use crate::error_causes::Causes;
 use crate::errors::{Radiosity, Yardstick};
 use crate::experiment::{Experiment, Stop};
 use crate::knobs;
 use crate::quantity::Fraction;
-
-/// The columns of runs.csv: [`Causes`] by name.
-pub const COLUMNS: [&str; 5] =
-    ["error_mask", "error_stopping", "error_directions", "error_sampling", "error_mesh"];
-
-/// The parts that make up a run's error, as area-weighted root mean squares relative to what is
-/// reflected. As vectors they add up to the error: so it is at most their sum.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Causes {
-    /// Masks coarser than the hemisphere.
-    pub mask: f64,
-    /// What was not shot, over-shooting and the ambient term included.
-    pub stopping: f64,
-    /// Rays in so many directions in place of all.
-    pub directions: f64,
-    /// Shooting from the centres of patches, or of their parts.
-    pub sampling: f64,
-    /// What the patches of the run miss of the answer.
-    pub mesh: f64,
-}
 
 /// A local patch is shot down to this share of what the brightest begins with: what is then left is
 /// no cause any more.
@@ -123,14 +103,5 @@ impl Explained<'_> {
         });
         let points: Vec<_> = points.collect();
         Centres::new(&space.scene, dense.patches.clone(), &points, parallel::host_threads())
-    }
-}
-
-impl Causes {
-    /// The cell of a column.
-    pub fn cell(&self, column: &str) -> Option<String> {
-        let parts = [self.mask, self.stopping, self.directions, self.sampling, self.mesh];
-        let (_, part) = COLUMNS.iter().zip(parts).find(|(name, _)| **name == column)?;
-        Some(format!("{part:.6e}"))
     }
 }

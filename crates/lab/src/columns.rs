@@ -2,9 +2,9 @@
 
 use serde_json::Value;
 
-use crate::causes;
 use crate::display;
 use crate::engine;
+use crate::error_causes;
 use crate::errors;
 use crate::figures::Figures;
 use crate::message_layer;
@@ -116,7 +116,7 @@ impl Also {
         let display = display::COLUMNS.into_iter().filter(move |_| self.display);
         let start_up = start_up::COLUMNS.into_iter().filter(move |_| self.start_up);
         let machine = network.chain(memory).chain(layer).chain(display).chain(start_up);
-        let causes = causes::COLUMNS.into_iter().filter(move |_| self.causes);
+        let causes = error_causes::COLUMNS.into_iter().filter(move |_| self.causes);
         let accuracy = tuned::COLUMNS.into_iter().filter(move |_| self.accuracy);
         machine.chain(caches).chain(media).chain(errors).chain(causes).chain(accuracy)
     }

@@ -19,17 +19,17 @@ use virtwall::{
 
 use crate::display::DisplayFigures;
 use crate::experiment::{self as fields, Experiment};
-use crate::fault::Fault;
+use crate::fault::{Fault, WrongField};
 use crate::figures::{Energy, Figures};
 use crate::find::Found;
-use crate::interfaces::WallMesh;
 use crate::knobs;
 use crate::machine_file::MachineFile;
 use crate::message_layer::{self, MessageLayerFigures};
 use crate::network;
 use crate::node_memory;
-use crate::settings::{Settings, WrongField};
+use crate::settings::Settings;
 use crate::start_up::StartUpFigures;
+use crate::wall_mesh::WallMesh;
 
 /// What the programs run on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use virtwall::Problem;
 
 use crate::answer::Answer;
-use crate::causes::Causes;
+use crate::error_causes::Causes;
 
 /// The columns of runs.csv: [`ErrorFigures`] by name.
 pub const COLUMNS: [&str; 3] = ["error_l2", "error_max", "reference_error"];

@@ -10,10 +10,10 @@ use serde_json::{Value, json};
 use crate::accuracy::AccuracyFields;
 use crate::display::DisplayFields;
 use crate::interfaces::{Interfaces, VirtualWalls};
-use crate::knobs::SplitFields;
 use crate::node_memory::NodeMemoryFields;
 use crate::quantity::{Fraction, Length, Period, Triple};
 use crate::schema;
+use crate::source_split::SplitFields;
 
 /// Fields of an experiment file in which a list is no sweep.
 pub const UNSWEPT: [&str; 4] = ["$schema", "title", "compare_with", "plots"];

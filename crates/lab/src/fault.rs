@@ -60,3 +60,6 @@ pub fn unknown(what: &str, name: &str, known: &[String]) -> String {
     let known = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
     format!("unknown {what} \"{name}\"{hint} (there are: {known})")
 }
+
+/// What is wrong with a field of the experiment: its place, and the message.
+pub type WrongField = (&'static str, String);

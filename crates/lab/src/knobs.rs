@@ -1,37 +1,9 @@
 //! What an experiment says of how a patch is shot beyond what the paper does.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use virtwall::{Shooting, SourceSplit};
 
 use crate::experiment::Experiment;
-
-/// Cutting of patches into several sources.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct SplitFields {
-    /// Into how many parts a patch is cut along each of its two directions, at most; each shoots with
-    /// a hemisphere of its own. 1: patches shoot from their centres, as the paper's do.
-    #[schemars(range(min = 1, max = 64))]
-    pub most: u32,
-    /// Cut only as far as need be for nothing in front of a patch to be nearer to its centre than so
-    /// many edges of its parts. Default: all patches are cut into "most".
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub nearer_than: Option<f64>,
-}
-
-impl Default for SplitFields {
-    fn default() -> SplitFields {
-        SplitFields { most: 1, nearer_than: None }
-    }
-}
-
-impl SplitFields {
-    /// Whether patches shoot from their centres.
-    pub fn is_none(&self) -> bool {
-        *self == SplitFields::default()
-    }
-}
+use crate::source_split::SplitFields;
 
 /// The parts that a patch may be cut into along a direction.
 const MOST_PARTS: u32 = 64;

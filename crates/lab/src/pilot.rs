@@ -12,9 +12,10 @@ use virtwall::{KeptShots, Problem};
 
 use crate::engine::{self, On};
 use crate::experiment::{Directions, Experiment, Selection};
-use crate::knobs::SplitFields;
+use crate::fault::WrongField;
 use crate::quantity::{Fraction, Length};
-use crate::settings::{Settings, WrongField};
+use crate::settings::Settings;
+use crate::source_split::SplitFields;
 
 /// A setting of the knobs that trade accuracy for time.
 #[derive(Clone, Copy, Debug, PartialEq)]

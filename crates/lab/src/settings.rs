@@ -4,18 +4,16 @@ use serde::Serialize;
 
 use crate::cut::{automatic_cells, automatic_cut};
 use crate::experiment::{Directions, Experiment, is_false};
-use crate::interfaces::WallMesh;
+use crate::fault::WrongField;
 use crate::quantity::Triple;
 use crate::scene::Scene;
+use crate::wall_mesh::WallMesh;
 
 /// A patch of a bare OBJ file is at most this share of the scene's diagonal long.
 const BARE_PATCHES: f64 = 1.0 / 50.0;
 
 /// More patches than a host's memory holds with ease.
 const MOST_PATCHES: f64 = 2e7;
-
-/// What is wrong with a field of the experiment: its place, and the message.
-pub type WrongField = (&'static str, String);
 
 /// How a scene is meshed, cut and lit: all that decides what a shot does.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -1,16 +1,15 @@
 //! A machine file as it stands on disk. [`crate::Machine`] is what comes of it.
 
 use std::collections::BTreeMap;
-use std::fmt;
 use std::num::{NonZeroU8, NonZeroU16};
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use serde::de::{Deserializer, Error, MapAccess, Visitor};
 
 use crate::display::DisplayFile;
 use crate::message_layer::MessageLayerFile;
 use crate::network::Model;
+use crate::repetition::without_repetition;
 use crate::sourced::{Bandwidth, Bytes, Cycles, Frequency, Positive, Quantity, Sourced, Time};
 use crate::start_up::StartUpFile;
 
@@ -218,36 +217,4 @@ pub fn machine_schema() -> serde_json::Value {
         schema.insert("anyOf".to_owned(), either);
     }
     schema
-}
-
-/// Reads a map and refuses a key that stands in it twice, which serde's own maps let pass.
-pub(crate) fn without_repetition<'de, D, T>(
-    deserializer: D,
-) -> Result<BTreeMap<String, T>, D::Error>
-where
-    D: Deserializer<'de>,
-    T: Deserialize<'de>,
-{
-    struct Entries<T>(std::marker::PhantomData<T>);
-
-    impl<'de, T: Deserialize<'de>> Visitor<'de> for Entries<T> {
-        type Value = BTreeMap<String, T>;
-
-        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-            f.write_str("operations by name")
-        }
-
-        fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<Self::Value, A::Error> {
-            let mut map = BTreeMap::new();
-            while let Some(key) = entries.next_key::<String>()? {
-                if map.contains_key(&key) {
-                    return Err(A::Error::custom(format!("found {key:?} twice; expected it once")));
-                }
-                map.insert(key, entries.next_value()?);
-            }
-            Ok(map)
-        }
-    }
-
-    deserializer.deserialize_map(Entries(std::marker::PhantomData))
 }

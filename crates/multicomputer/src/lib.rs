@@ -25,6 +25,7 @@ mod observer;
 mod processor;
 pub mod quantity;
 mod record;
+mod repetition;
 mod replay;
 mod shared;
 mod socket;

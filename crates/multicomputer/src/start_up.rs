@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::fault::MachineFault;
-use crate::file::without_repetition;
+use crate::repetition::without_repetition;
 use crate::sourced::{self, Bandwidth, Bytes, Cycles, Quantity, Sourced, whole_bytes};
 
 /// A disk's sector, bytes: shorter requests can only be a slip.

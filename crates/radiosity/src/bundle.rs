@@ -8,8 +8,8 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 use glam::DVec3;
 
-use crate::facets::Ray;
 use crate::pyramid::Pyramid;
+use crate::ray::Ray;
 
 /// Rays in a bundle: bits in a word of a mask.
 pub(crate) const WIDTH: usize = 64;

@@ -1,11 +1,11 @@
 //! Shooting through participating media, a ray at a time.
 
 use crate::environment::LocalEnvironment;
-use crate::facets::Ray;
 use crate::hemisphere::Hemisphere;
 use crate::mask::Mask;
 use crate::media::{DepthBits, optical_depth};
 use crate::plain::{End, cast};
+use crate::ray::Ray;
 use crate::shot::{Outgoing, Shot, Source, count_passes};
 use crate::space::Space;
 use crate::work::{Operation, Work};

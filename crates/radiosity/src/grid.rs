@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::bounds::Bounds;
 use crate::clip::clip_to_box;
-use crate::facets::Ray;
+use crate::ray::Ray;
 use crate::scene::{Polygon, Scene};
 
 /// A side of a box of cells: axis 0, 1 or 2, on the lower or upper side.

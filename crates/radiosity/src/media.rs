@@ -1,7 +1,7 @@
 //! Participating media that absorb light on its way (§3.2): how much of a ray's light is left.
 
 use crate::bounds::Bounds;
-use crate::facets::Ray;
+use crate::ray::Ray;
 
 /// A homogeneous medium that fills a box, absorbs and does not scatter. Where several overlap, their
 /// absorption adds up.

@@ -2,11 +2,11 @@
 
 use crate::bundle::WIDTH;
 use crate::environment::LocalEnvironment;
-use crate::facets::Ray;
 use crate::form_factors::FormFactors;
 use crate::grid::Side;
 use crate::hemisphere::Hemisphere;
 use crate::mask::Mask;
+use crate::ray::Ray;
 use crate::shot::{Shot, Source, Tally};
 use crate::space::Space;
 use crate::work::{Operation, Work};

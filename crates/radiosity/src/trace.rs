@@ -1,9 +1,9 @@
 //! What a shot touches in memory, record by record: a cache wants to know more than counts.
 
 use crate::environment::LocalEnvironment;
-use crate::facets::Ray;
 use crate::hemisphere::Hemisphere;
 use crate::mask::Mask;
+use crate::ray::Ray;
 use crate::shot::Source;
 use crate::space::Space;
 

@@ -14,7 +14,7 @@ use crate::problem::Problem;
 use crate::region::Region;
 use crate::rules::Rules;
 use crate::service_node::Collection;
-use crate::start_up::Step;
+use crate::step::Step;
 
 /// What is to be run.
 #[derive(Clone)]
