@@ -149,7 +149,7 @@ fn hemisphere(settings: &Settings) -> Result<Hemisphere, WrongField> {
     };
     let hemisphere = Hemisphere::new(kind, settings.pixels, settings.rotated)
         .map_err(|error| ("hemisphere.pixels", error.to_string()))?;
-    Ok(if settings.by_place { hemisphere.by_place() } else { hemisphere })
+    Ok(if settings.by_place { hemisphere } else { hemisphere.by_axes() })
 }
 
 fn depth_bits(bits: u32) -> Result<DepthBits, WrongField> {
