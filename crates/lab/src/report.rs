@@ -51,7 +51,7 @@ pub fn html(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width\">\n<title>{title}</title>\n\
          <style>\n{STYLE}{viewer_style}</style>\n</head>\n<body>\n\
-         <h1>{title}</h1>\n{lead}{summary}{warnings}{found}{answers}{figures}\
+         <h1>{title}</h1>\n{lead}{summary}{warnings}{found}{figures}{answers}\
          {cheapest}<h2>Runs</h2>\n{ratios}{grouped}\
          <details><summary>All columns</summary>\n{all}</details>\n\
          <h2>Choices</h2>\n\
