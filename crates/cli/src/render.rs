@@ -257,19 +257,18 @@ impl Studio<'_> {
 
 impl View {
     fn camera(&self, scene: &radiosity::Scene) -> Result<Camera, String> {
+        let (width, height) = self.size;
         let default = match self.camera {
-            CameraArgument::Outside => Camera::overview(&scene.bounds),
-            CameraArgument::Inside => Camera::inside(&scene.bounds),
+            CameraArgument::Outside => Camera::overview(&scene.bounds, width, height),
+            CameraArgument::Inside => Camera::inside(&scene.bounds, width, height),
         };
         let local = |place: Option<DVec3>| place.map(|place| place - scene.origin);
-        let (width, height) = self.size;
         let camera = Camera {
             eye: local(self.eye).unwrap_or(default.eye),
             target: local(self.target).unwrap_or(default.target),
             up: self.up.unwrap_or(default.up),
             field_of_view_degrees: self.field_of_view.unwrap_or(default.field_of_view_degrees),
-            width,
-            height,
+            ..default
         };
         if (camera.target - camera.eye).cross(camera.up).length_squared() > 0.0 {
             Ok(camera)

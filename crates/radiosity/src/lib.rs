@@ -73,7 +73,7 @@ pub use scene::{Face, Material, Plane, Polygon, Rgb, Scene};
 pub use scene_error::SceneError;
 pub use shoot::shoot;
 pub use shot::{Outgoing, Shot, Source};
-pub use solve::solve;
+pub use solve::{solve, solve_watched};
 pub use space::Space;
 pub use tone::{Exposure, Tone};
 pub use trace::{Record, trace};
