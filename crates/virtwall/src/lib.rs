@@ -53,7 +53,7 @@ pub use memory::Memory;
 pub use message::{Message, MessageKind, Parcel, PatchUpdate, Sums};
 pub use observer::{Activity, Observer, SentMessage, SharedObserver};
 pub use outcome::{Ending, EnergyLedger, NodeReport, Outcome};
-pub use problem::{Problem, ProblemError, ProblemOptions};
+pub use problem::{CutScene, Problem, ProblemError, ProblemOptions};
 pub use process::Process;
 pub use reader::DecodeError;
 pub use recording::{EnergyAt, MessageRecord, NodeRecord, Recording, ShotRecord, Span};
