@@ -260,6 +260,51 @@ pub fn light_at(
     Ok((light.take(), outcome.time))
 }
 
+/// A run as it would have ended at a threshold.
+pub struct Stopped {
+    /// Virtual seconds.
+    pub time_s: f64,
+    /// The part of the emitted energy that was not shot.
+    pub unshot: f64,
+    /// Radiosity in W/m², by patch, one environment after the other.
+    pub radiosity: Vec<Rgb>,
+    /// What the ambient term would add where all is reflected, W/m².
+    pub ambient: Rgb,
+}
+
+/// A run on one processor as it would end at each of `thresholds`, in falling order, the last of which is
+/// its own.
+///
+/// # Errors
+/// Why the run did not end.
+pub fn stops(
+    run: &Run,
+    point: &Experiment,
+    machine: &Machine,
+    thresholds: &[f64],
+) -> Result<Vec<Stopped>, String> {
+    let machine = changed(machine, point);
+    let stops = Rc::new(RefCell::new(Vec::new()));
+    let visit = {
+        let stops = Rc::clone(&stops);
+        move |instant: Instant| {
+            let energy = &instant.energy;
+            let left = (energy.unshot + energy.in_transit).element_sum();
+            stops.borrow_mut().push(Stopped {
+                time_s: instant.time.as_seconds_f64(),
+                unshot: left / energy.emitted.element_sum().max(f64::MIN_POSITIVE),
+                radiosity: instant.radiosity().flatten().collect(),
+                ambient: instant.ambient(),
+            });
+        }
+    };
+    network::rung(run, &machine, point)
+        .and_then(|rung| Ok(machine.network_on(rung)?))
+        .and_then(|network| virtwall::visit_stops(run, &machine, network, thresholds, visit))
+        .map_err(|error| error.to_string())?;
+    Ok(stops.take())
+}
+
 /// Shots after which a scene counts as solved.
 const MOST_SHOTS: u64 = 5_000;
 

@@ -21,6 +21,7 @@ mod engine;
 mod error_causes;
 mod errors;
 mod experiment;
+mod family;
 mod fault;
 mod feed;
 mod figures;
