@@ -21,7 +21,7 @@ pub struct Arguments {
     /// or path to an experiment (.json), or to a folder of results: a run of it is made again
     what: String,
     /// Draw a picture to this PNG file
-    #[arg(short, long, value_name = "PNG", required_unless_present = "gltf")]
+    #[arg(short, long, value_name = "PNG", required_unless_present = "gltf", value_parser = png)]
     output: Option<PathBuf>,
     /// Write the patches to this binary glTF file: at each vertex COLOR_0, what a picture would show,
     /// exposure and tone applied, and _RADIOSITY, W/m²
@@ -296,6 +296,12 @@ fn numbered(path: &Path, frame: u32, frames: u32) -> PathBuf {
     let digits = frames.to_string().len().max(3);
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     path.with_file_name(format!("{stem}-{frame:0digits$}.png"))
+}
+
+fn png(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let is_png = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"));
+    if is_png { Ok(path) } else { Err("expected a file name that ends in .png".to_owned()) }
 }
 
 fn instant(text: &str) -> Result<Time, QuantityError> {

@@ -11,10 +11,11 @@ use radiosity::{
     DepthBits, Hemisphere, HemisphereKind, Operation, PatchSize, Rgb, VirtualWalls,
     VirtualWallsError,
 };
+use reference::parallel;
 use serde::Serialize;
 use virtwall::{
-    Ending, Instant, KeptShots, Outcome, Problem, ProblemError, ProblemOptions, Rules, Run,
-    RunError, SharedObserver, Step, Thing,
+    CutScene, Ending, Instant, KeptShots, Outcome, Problem, ProblemError, ProblemOptions, Rules,
+    Run, RunError, SharedObserver, Step, Thing,
 };
 
 use crate::display::DisplayFigures;
@@ -22,6 +23,7 @@ use crate::experiment::{self as fields, Experiment};
 use crate::fault::{Fault, WrongField};
 use crate::figures::{Energy, Figures};
 use crate::find::Found;
+use crate::host_clock::HostClock;
 use crate::knobs;
 use crate::machine_file::MachineFile;
 use crate::message_layer::{self, MessageLayerFigures};
@@ -85,6 +87,60 @@ fn sized(file: MachineFile, found: &Found) -> Result<MachineFile, Fault> {
 /// # Errors
 /// The experiment's field at fault, and what is wrong with it.
 pub fn problem(scene: &radiosity::Scene, settings: &Settings) -> Result<Arc<Problem>, WrongField> {
+    Ok(problem_on(scene, settings, 1)?.0)
+}
+
+/// The same on so many threads, and the CPU seconds of all of them.
+///
+/// # Errors
+/// Those of [`problem`].
+pub fn problem_on(
+    scene: &radiosity::Scene,
+    settings: &Settings,
+    threads: usize,
+) -> Result<(Arc<Problem>, f64), WrongField> {
+    let clock = HostClock::start();
+    let cut = cut(scene, settings)?;
+    let mesh = |number: usize| {
+        let clock = HostClock::start();
+        (cut.environment(number as u32), clock.cpu_seconds())
+    };
+    let meshed = parallel::map(cut.environments() as usize, threads, mesh, || ());
+    let (environments, seconds): (_, Vec<f64>) = meshed.into_iter().unzip();
+    let cpu_s = clock.cpu_seconds() + seconds.iter().sum::<f64>();
+    let problem = cut.with(environments);
+    let problem = match settings.mask_bits {
+        Some(bits) => problem.with_depth_bits(depth_bits(bits)?),
+        None => problem,
+    };
+    let problem = match settings.virtual_walls {
+        Some(mesh) => problem.with_walls(walls(mesh)?),
+        None => problem,
+    };
+    Ok((Arc::new(problem), cpu_s))
+}
+
+/// Cuts a scene.
+fn cut(scene: &radiosity::Scene, settings: &Settings) -> Result<CutScene, WrongField> {
+    let (reflector, emitter) = (settings.patch_size, settings.emitter_patch_size);
+    let options = ProblemOptions {
+        patch_size: PatchSize { reflector, emitter },
+        cells: settings.cells.0,
+        cut: settings.cut.0,
+        hemisphere: hemisphere(settings)?,
+    };
+    CutScene::new(scene.clone(), options).map_err(|error| {
+        let field = match error {
+            ProblemError::Cells(_) => "cells",
+            ProblemError::Cut { .. } => "cut",
+            ProblemError::PatchSize(..) => "patch_size",
+        };
+        (field, error.to_string())
+    })
+}
+
+/// The hemisphere over every source.
+fn hemisphere(settings: &Settings) -> Result<Hemisphere, WrongField> {
     let kind = match settings.directions {
         fields::Directions::Fibonacci => HemisphereKind::Fibonacci,
         fields::Directions::Hemicube => HemisphereKind::Hemicube,
@@ -93,30 +149,7 @@ pub fn problem(scene: &radiosity::Scene, settings: &Settings) -> Result<Arc<Prob
     };
     let hemisphere = Hemisphere::new(kind, settings.pixels, settings.rotated)
         .map_err(|error| ("hemisphere.pixels", error.to_string()))?;
-    let hemisphere = if settings.by_place { hemisphere.by_place() } else { hemisphere };
-    let (reflector, emitter) = (settings.patch_size, settings.emitter_patch_size);
-    let options = ProblemOptions {
-        patch_size: PatchSize { reflector, emitter },
-        cells: settings.cells.0,
-        cut: settings.cut.0,
-        hemisphere,
-    };
-    let problem = Problem::new(scene.clone(), options).map_err(|error| {
-        let field = match error {
-            ProblemError::Cells(_) => "cells",
-            ProblemError::Cut { .. } => "cut",
-            ProblemError::PatchSize(..) => "patch_size",
-        };
-        (field, error.to_string())
-    })?;
-    let problem = match settings.mask_bits {
-        Some(bits) => problem.with_depth_bits(depth_bits(bits)?),
-        None => problem,
-    };
-    Ok(Arc::new(match settings.virtual_walls {
-        Some(mesh) => problem.with_walls(walls(mesh)?),
-        None => problem,
-    }))
+    Ok(if settings.by_place { hemisphere } else { hemisphere.by_axes() })
 }
 
 fn depth_bits(bits: u32) -> Result<DepthBits, WrongField> {

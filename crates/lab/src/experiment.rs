@@ -203,7 +203,6 @@ pub struct Hemisphere {
     pub rotated: bool,
     /// Whether the directions lie over each source by its place in the scene, and so turn with the
     /// scene, rather than by the axes: turned by 90° a scene then has the same light to the last digits.
-    #[serde(skip_serializing_if = "is_false")]
     pub by_place: bool,
 }
 
@@ -214,7 +213,7 @@ impl Default for Hemisphere {
             pixels: 30_976,
             pixels_a_bit: 1,
             rotated: true,
-            by_place: false,
+            by_place: true,
         }
     }
 }

@@ -9,7 +9,7 @@ use serde_json::Value;
 use virtwall::Problem;
 
 use crate::answer::{Answer, DenseAnswers, Stored};
-use crate::columns::Also;
+use crate::columns::{self, Also};
 use crate::comparison::Comparison;
 use crate::digest::FileDigest;
 use crate::experiment::{Experiment, Plot};
@@ -55,6 +55,19 @@ impl Plan {
         let mut sentences: Vec<String> = found.collect();
         sentences.dedup();
         sentences
+    }
+
+    /// What tells a run from the others: its scene, its processors, and whatever else is swept.
+    pub fn label(&self, run: &Run) -> String {
+        let plural = if run.point.processors == 1 { "" } else { "s" };
+        let mut label = format!("{}, {} processor{plural}", run.point.scene, run.point.processors);
+        for (axis, &item) in self.axes.iter().zip(&run.index) {
+            let field = axis.place.to_string();
+            if !["scene", "processors"].contains(&field.as_str()) {
+                label += &format!(", {field} {}", columns::cell(&axis.values[item]));
+            }
+        }
+        label
     }
 
     /// What its results tell of besides what all do.

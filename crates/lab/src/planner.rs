@@ -27,6 +27,7 @@ use crate::network;
 use crate::pilot::Pilots;
 use crate::place::Place;
 use crate::plan::{Equipment, Plan, Prepared, Run};
+use crate::program::program;
 use crate::scene::Scene;
 use crate::settings::Settings;
 use crate::sweep::{Point, Sweep};
@@ -365,7 +366,14 @@ impl Planner<'_> {
             let clock = HostClock::start();
             Ok((Scene::load(&self.scenes[scene])?, clock.cpu_seconds()))
         };
-        parallel::map(self.scenes.len(), self.preparing.threads, load, || ()).into_iter().collect()
+        let threads = self.preparing.threads;
+        std::thread::scope(|scope| {
+            // Runs will be saved under the name of this program: meanwhile it reads itself.
+            if threads > 1 {
+                scope.spawn(program);
+            }
+            parallel::map(self.scenes.len(), threads, load, || ()).into_iter().collect()
+        })
     }
 
     /// The scenes, meshed and cut as the points say, each such problem once, and which is whose.
@@ -388,10 +396,10 @@ impl Planner<'_> {
         let prepare = |number: usize| {
             let (settings, draft) = &wanted[number];
             let (scene, loading_s) = &scenes[draft.scene];
-            let clock = HostClock::start();
-            let problem = engine::problem(&scene.geometry, settings)
+            let threads = self.preparing.threads;
+            let (problem, cpu_s) = engine::problem_on(&scene.geometry, settings, threads)
                 .map_err(|(field, message)| self.fault(draft.point, field, message))?;
-            let set_up_s = loading_s + clock.cpu_seconds();
+            let set_up_s = loading_s + cpu_s;
             let (settings, digests) = (settings.clone(), scene.digests.clone());
             Ok(Prepared { settings, problem, digests, scene_bytes: scene.bytes, set_up_s })
         };

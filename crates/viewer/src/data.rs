@@ -82,7 +82,7 @@ impl Data {
             "scene": scene,
             "processors": told.processors(),
             "time_s": told.seconds(),
-            "machine": places(reel),
+            "machine": places(reel.machine, told.processors()),
             "block": self.add(format!("run-{number}"), columns),
         })
     }

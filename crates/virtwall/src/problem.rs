@@ -61,9 +61,17 @@ pub struct Problem {
     pub depth_bits: DepthBits,
 }
 
-impl Problem {
-    /// Mesh and cut a scene.
-    pub fn new(scene: Scene, options: ProblemOptions) -> Result<Problem, ProblemError> {
+/// A scene in its grid, cut, its environments yet to be meshed: each by itself, on whatever thread.
+pub struct CutScene {
+    space: Space,
+    decomposition: Decomposition,
+    patch_size: PatchSize,
+    hemisphere: Hemisphere,
+}
+
+impl CutScene {
+    /// Cut a scene.
+    pub fn new(scene: Scene, options: ProblemOptions) -> Result<CutScene, ProblemError> {
         let ProblemOptions { patch_size, cells, cut, hemisphere } = options;
         let count = cells.iter().map(|&n| u64::from(n)).try_fold(1, u64::checked_mul);
         if !count.is_some_and(|count| (1..=MOST_CELLS).contains(&count)) {
@@ -80,11 +88,34 @@ impl Problem {
         }
         let space = Space::new(scene, cells);
         let decomposition = Decomposition::new(cells, cut);
-        let environments = (0..decomposition.environments())
-            .map(|e| LocalEnvironment::new(&space, decomposition.block(e), patch_size))
-            .collect();
+        Ok(CutScene { space, decomposition, patch_size, hemisphere })
+    }
+
+    /// How many environments there are.
+    pub fn environments(&self) -> u32 {
+        self.decomposition.environments()
+    }
+
+    /// Mesh one of them.
+    pub fn environment(&self, number: u32) -> LocalEnvironment {
+        let block = self.decomposition.block(number);
+        LocalEnvironment::new(&self.space, block, self.patch_size)
+    }
+
+    /// The problem that all of them, by number, make up.
+    pub fn with(self, environments: Vec<LocalEnvironment>) -> Problem {
+        let CutScene { space, decomposition, hemisphere, .. } = self;
         let (walls, depth_bits) = (None, DepthBits::Sixteen);
-        Ok(Problem { space, decomposition, environments, hemisphere, walls, depth_bits })
+        Problem { space, decomposition, environments, hemisphere, walls, depth_bits }
+    }
+}
+
+impl Problem {
+    /// Mesh and cut a scene.
+    pub fn new(scene: Scene, options: ProblemOptions) -> Result<Problem, ProblemError> {
+        let cut = CutScene::new(scene, options)?;
+        let environments = (0..cut.environments()).map(|e| cut.environment(e)).collect();
+        Ok(cut.with(environments))
     }
 
     /// The same with virtual walls in place of masks.

@@ -68,6 +68,11 @@ impl Browser {
         self.call("Page.navigate", &json!({ "url": format!("file://{}", file.display()) }));
     }
 
+    /// Show what is served at an address.
+    pub fn visit(&mut self, url: &str) {
+        self.call("Page.navigate", &json!({ "url": url }));
+    }
+
     /// The value of an expression in the page.
     pub fn evaluate(&mut self, expression: &str) -> Value {
         let call = json!({ "expression": expression, "awaitPromise": true, "returnByValue": true });
