@@ -213,10 +213,13 @@ pub fn carry_out(
     let message_layer = tells.then(|| MessageLayerFigures::of(&outcome.layer()));
     let caches = on == On::Simulation && !machine.processor.caches.is_empty();
     let missing_s = caches.then(|| outcome.missing().as_seconds_f64());
+    let translating_s = caches && machine.processor.translations.is_some();
+    let translating_s = translating_s.then(|| outcome.translating().as_seconds_f64());
     let figures = figures(&run.problem, &outcome, on == On::Simulation);
     let counted = start_up.filter(|_| point.count_start_up).map_or(0.0, |s| s.start_up_s);
     let time_s = figures.time_s.map(|time_s| time_s + counted);
-    let figures = Figures { time_s, network, message_layer, start_up, missing_s, ..figures };
+    let figures =
+        Figures { time_s, network, message_layer, start_up, missing_s, translating_s, ..figures };
     Ok((figures, outcome.radiosity))
 }
 
@@ -367,6 +370,7 @@ fn figures(problem: &Problem, outcome: &Outcome, virtual_time: bool) -> Figures 
         display: outcome.display.as_ref().map(DisplayFigures::of),
         start_up: None,
         missing_s: None,
+        translating_s: None,
         work: outcome.work.counts().map(|(op, n)| (op.name().to_owned(), n)).collect(),
     }
 }

@@ -84,6 +84,7 @@ impl Plan {
                 .any(|run| run.tuned.is_some() || run.point.accuracy.is_some()),
             causes: self.runs.iter().any(|run| run.point.error_causes),
             caches: self.runs.iter().any(|run| !machine(run).processor.caches.is_empty()),
+            translations: self.runs.iter().any(|run| machine(run).processor.translations.is_some()),
             errors: self.runs.iter().any(|run| run.point.reference.is_some()),
             display: self.runs.iter().any(|run| machine(run).display.is_some()),
             start_up: self.runs.iter().any(|run| machine(run).start_up.is_some()),
