@@ -96,7 +96,8 @@ impl Family {
         }
         // Other causes are looked at where stopping is not what matters.
         let plain = &curves[..2];
-        let least = |step: usize| if plain[0].steps[step].0 < plain[1].steps[step].0 { 0 } else { 1 };
+        let least =
+            |step: usize| if plain[0].steps[step].0 < plain[1].steps[step].0 { 0 } else { 1 };
         let enough = |&step: &usize| plain[least(step)].steps[step].0 <= target / 2.0;
         let step = (0..steps).find(enough).unwrap_or(steps);
         let (stopping, ambient) = (plain[least(step)].steps[step].0, least(step) == 1);
@@ -199,7 +200,11 @@ impl Family {
 }
 
 /// A pilot run that stops where little is left, and the error of the estimate of it.
-fn converged(pilots: &Pilots, knobs: &Knobs, target: f64) -> Result<(std::rc::Rc<Pilot>, f64), String> {
+fn converged(
+    pilots: &Pilots,
+    knobs: &Knobs,
+    target: f64,
+) -> Result<(std::rc::Rc<Pilot>, f64), String> {
     let mut steps = FIRST_STEPS;
     loop {
         let pilot = pilots.run(knobs, steps)?;
