@@ -66,7 +66,7 @@ pub use mesh::{Mesh, Shading};
 pub use mtl::DEFAULT_REFLECTANCE;
 pub use obj::{load_obj, load_obj_from};
 pub use parts::Part;
-pub use picture::{Picture, PictureError, PictureOptions, render, studio_light};
+pub use picture::{LARGEST_PICTURE, Picture, PictureError, PictureOptions, render, studio_light};
 pub use plain::{End, cast, shoot_plainly};
 pub use ray::Ray;
 pub use scene::{Face, Material, Plane, Polygon, Rgb, Scene};
