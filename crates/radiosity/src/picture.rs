@@ -65,9 +65,7 @@ pub fn render(
     options: PictureOptions,
 ) -> Result<Picture, PictureError> {
     let (width, height) = (camera.width, camera.height);
-    if !(1..=LARGEST_PICTURE_PICTURE).contains(&width)
-        || !(1..=LARGEST_PICTURE_PICTURE).contains(&height)
-    {
+    if !(1..=LARGEST_PICTURE).contains(&width) || !(1..=LARGEST_PICTURE).contains(&height) {
         return Err(PictureError { width, height });
     }
     let mut canvas = Canvas::new(camera, FINENESS);
