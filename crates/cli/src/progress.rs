@@ -106,18 +106,18 @@ impl Progress {
         let shots: u64 = counts.shots.values().sum();
         let runs = self.plan.runs.len();
         let message = format!("{ended} of {runs} runs");
-        let times_up = self.bar.elapsed().as_secs() / BETWEEN_LINES;
-        if self.lines && times_up > counts.lines {
-            counts.lines = times_up;
-            let [gone, left] = [self.bar.elapsed(), self.bar.eta()].map(HumanDuration);
-            note(&format!("{message}, {shots} shots in this one, {gone} gone, {left} left"));
-        }
-        self.bar.set_prefix(message);
         // Nobody knows before something has been done.
         let left = match self.bar.position() {
             0 => String::new(),
-            _ => format!(", {:#} left", HumanDuration(self.bar.eta())),
+            _ => format!(", {} left", HumanDuration(self.bar.eta())),
         };
+        let times_up = self.bar.elapsed().as_secs() / BETWEEN_LINES;
+        if self.lines && times_up > counts.lines {
+            counts.lines = times_up;
+            let gone = HumanDuration(self.bar.elapsed());
+            note(&format!("{message}, {shots} shots in this one, {gone} gone{left}"));
+        }
+        self.bar.set_prefix(message);
         self.bar.set_message(left + &self.under_way(&counts.pulses));
     }
 

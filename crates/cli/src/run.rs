@@ -63,7 +63,7 @@ pub struct Arguments {
     #[arg(long, value_name = "RUNS", default_value = "auto", value_parser = viewing)]
     viewer: Viewing,
     #[command(flatten)]
-    live: live::Arguments,
+    live: live::Serving,
     /// Print nothing but what went wrong: no progress, no table
     #[arg(long, short)]
     quiet: bool,
