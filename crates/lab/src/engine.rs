@@ -8,7 +8,7 @@ use std::sync::Arc;
 use desim::Time;
 use multicomputer::Machine;
 use radiosity::{
-    DepthBits, Hemisphere, HemisphereKind, Operation, PatchSize, Rgb, VirtualWalls,
+    DepthBits, Hemisphere, HemisphereKind, Operation, PatchSize, Refinement, Rgb, VirtualWalls,
     VirtualWallsError,
 };
 use serde::Serialize;
@@ -91,15 +91,18 @@ pub fn problem(scene: &radiosity::Scene, settings: &Settings) -> Result<Arc<Prob
         fields::Directions::Polar => HemisphereKind::Polar,
         fields::Directions::Concentric => HemisphereKind::Concentric,
     };
-    let hemisphere = Hemisphere::new(kind, settings.pixels, settings.rotated)
-        .map_err(|error| ("hemisphere.pixels", error.to_string()))?;
-    let hemisphere = if settings.by_place { hemisphere.by_place() } else { hemisphere };
+    let hemisphere = |pixels| {
+        let hemisphere = Hemisphere::new(kind, pixels, settings.rotated)
+            .map_err(|error| ("hemisphere.pixels", error.to_string()))?;
+        Ok(if settings.by_place { hemisphere.by_place() } else { hemisphere })
+    };
     let (reflector, emitter) = (settings.patch_size, settings.emitter_patch_size);
+    let patch_size = PatchSize { reflector, emitter };
     let options = ProblemOptions {
-        patch_size: PatchSize { reflector, emitter },
+        patch_size,
         cells: settings.cells.0,
         cut: settings.cut.0,
-        hemisphere,
+        hemisphere: hemisphere(settings.pixels)?,
     };
     let problem = Problem::new(scene.clone(), options).map_err(|error| {
         let field = match error {
@@ -109,6 +112,18 @@ pub fn problem(scene: &radiosity::Scene, settings: &Settings) -> Result<Arc<Prob
         };
         (field, error.to_string())
     })?;
+    let problem = match settings.refine.wanted() {
+        Some(wanted) => {
+            let refinement = Refinement::new(&problem.space, patch_size, wanted)
+                .map_err(|error| ("refine", error.to_string()))?;
+            problem.refined(patch_size, refinement)
+        }
+        None => problem,
+    };
+    let smaller = (1..16).map(|quarters| settings.pixels >> (2 * quarters));
+    let least = settings.least_pixels.unwrap_or(settings.pixels).max(1);
+    let smaller = smaller.take_while(|&pixels| pixels >= least).map(hemisphere);
+    let problem = problem.with_smaller_hemispheres(smaller.collect::<Result<_, _>>()?);
     let problem = match settings.mask_bits {
         Some(bits) => problem.with_depth_bits(depth_bits(bits)?),
         None => problem,

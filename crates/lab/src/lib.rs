@@ -52,6 +52,7 @@ mod quantity;
 mod queue;
 mod ray_bench;
 mod reels;
+mod refine;
 mod report;
 mod results;
 mod runner;

@@ -1,12 +1,13 @@
 //! A scene made ready: meshed, cut into environments, with its hemisphere.
 
 use radiosity::{
-    Bounds, DepthBits, Hemisphere, LocalEnvironment, Mask, Outgoing, PatchSize, Rgb, Scene, Shot,
-    Side, Source, Space, VirtualWalls,
+    Bounds, DepthBits, Hemisphere, LocalEnvironment, Mask, Outgoing, PatchSize, Refinement, Rgb,
+    Scene, Shot, Side, Source, Space, VirtualWalls,
 };
 use thiserror::Error;
 
 use crate::decomposition::Decomposition;
+use crate::ladder::Ladder;
 use crate::message::Parcel;
 use crate::wall_patch::WallPatch;
 
@@ -55,6 +56,10 @@ pub struct Problem {
     pub environments: Vec<LocalEnvironment>,
     /// The hemisphere over every source.
     pub hemisphere: Hemisphere,
+    /// Smaller ones over dimmer sources.
+    ladder: Ladder,
+    /// What a pilot run found of where the mesh is to be finer, if one was made.
+    pub refinement: Option<Refinement>,
     /// Virtual walls between environments; without them masks carry the light across.
     pub walls: Option<VirtualWalls>,
     /// Integers of masks, in a scene with participating media.
@@ -83,8 +88,25 @@ impl Problem {
         let environments = (0..decomposition.environments())
             .map(|e| LocalEnvironment::new(&space, decomposition.block(e), patch_size))
             .collect();
-        let (walls, depth_bits) = (None, DepthBits::Sixteen);
-        Ok(Problem { space, decomposition, environments, hemisphere, walls, depth_bits })
+        Ok(Problem {
+            space,
+            decomposition,
+            environments,
+            hemisphere,
+            ladder: Ladder::default(),
+            refinement: None,
+            walls: None,
+            depth_bits: DepthBits::Sixteen,
+        })
+    }
+
+    /// The same with a mesh of patches of that size, finer where that is wanted.
+    pub fn refined(mut self, size: PatchSize, refinement: Refinement) -> Problem {
+        let mesh =
+            |environment: &LocalEnvironment| refinement.mesh(&self.space, environment.block, size);
+        self.environments = self.environments.iter().map(mesh).collect();
+        self.refinement = Some(refinement);
+        self
     }
 
     /// The same with virtual walls in place of masks.
@@ -97,9 +119,35 @@ impl Problem {
         Problem { depth_bits, ..self }
     }
 
-    /// The mask that a patch shoots with: all visible, nothing dimmed (§3.3).
-    pub(crate) fn clear_mask(&self) -> Mask {
-        let mask = Mask::all(self.hemisphere.pixels());
+    /// The same with these hemispheres over dimmer sources, each smaller than its own.
+    pub fn with_smaller_hemispheres(mut self, smaller: Vec<Hemisphere>) -> Problem {
+        let powers = self.environments.iter().flat_map(|environment| {
+            let patches = 0..environment.patches.len() as u32;
+            patches.map(|patch| environment.emitted_power(&self.space, patch).element_sum())
+        });
+        let brightest = powers.fold(0.0, f64::max);
+        self.ladder = Ladder::new(smaller, brightest / f64::from(self.hemisphere.pixels()));
+        self
+    }
+
+    /// The hemisphere over a source of so much power, W.
+    pub fn hemisphere_for(&self, power: Rgb) -> &Hemisphere {
+        self.ladder.rung_for(power).unwrap_or(&self.hemisphere)
+    }
+
+    /// The hemisphere that a mask belongs to.
+    pub fn hemisphere_of(&self, mask: &Mask) -> &Hemisphere {
+        self.ladder.rung_of(mask).unwrap_or(&self.hemisphere)
+    }
+
+    /// All hemispheres, the largest first.
+    pub(crate) fn hemispheres(&self) -> impl Iterator<Item = &Hemisphere> {
+        [&self.hemisphere].into_iter().chain(self.ladder.rungs())
+    }
+
+    /// The mask that a patch shoots so much power with, W: all visible, nothing dimmed (§3.3).
+    pub(crate) fn clear_mask(&self, power: Rgb) -> Mask {
+        let mask = Mask::all(self.hemisphere_for(power).pixels());
         let dims = !self.space.scene.media.is_empty() && self.walls.is_none();
         if dims { mask.with_depths(self.depth_bits) } else { mask }
     }
@@ -141,7 +189,7 @@ impl Problem {
         let bin = |(bin, power): (u32, &[f32; 3])| {
             let power = Rgb::from_array(power.map(f64::from));
             let source = walls.source(&around, side, [*patch, bin], power);
-            let mask = Mask::all(self.rays_of(&source).pixels());
+            let mask = Mask::all(walls.rays_of(&source).map_or(0, Hemisphere::pixels));
             Parcel { environment: *environment, source, mask, form_factor: 1.0, through: None }
         };
         powers.map(bin).collect()
@@ -155,8 +203,9 @@ impl Problem {
     }
 
     /// The rays over a source, a pixel of its mask each.
-    pub(crate) fn rays_of(&self, source: &Source) -> &Hemisphere {
-        self.walls.as_ref().and_then(|walls| walls.rays_of(source)).unwrap_or(&self.hemisphere)
+    pub(crate) fn rays_of(&self, source: &Source, mask: &Mask) -> &Hemisphere {
+        let of_wall = self.walls.as_ref().and_then(|walls| walls.rays_of(source));
+        of_wall.unwrap_or_else(|| self.hemisphere_of(mask))
     }
 
     /// Where an environment lies.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use multicomputer::{CacheLevel, Caches};
-use radiosity::{Block, Record, Side, trace};
+use radiosity::{Block, Hemisphere, Mask, Record, Side, trace};
 
 use crate::message::Parcel;
 use crate::problem::Problem;
@@ -105,12 +105,13 @@ impl Storage {
         let whole = problem.space.grid.whole();
         let environments = &problem.environments;
         let mask_bytes = u64::from(problem.hemisphere.pixels()).div_ceil(64) * 8;
+        let directions = problem.hemispheres().map(|h| h.directions.len()).sum();
         let mut room = Room { next: 0, gap: layout.gap };
         let mut storage = Storage {
             problem: Arc::clone(problem),
             caches: Caches::new(levels),
             frames: room.take(1, layout.frames[0]),
-            directions: room.take(problem.hemisphere.directions.len(), layout.direction),
+            directions: room.take(directions, layout.direction),
             masks: room.take(environments.len(), mask_bytes),
             mask_bytes,
             masks_used: 0,
@@ -166,13 +167,16 @@ impl Storage {
         let environment = &problem.environments[e];
         let mask = self.next_mask();
         let Parcel { source, mask: pixels, .. } = parcel;
-        trace(&problem.space, environment, &problem.hemisphere, source, pixels, |record| {
-            self.touch(e, mask, record);
+        let hemisphere = problem.rays_of(source, pixels);
+        let directions = self.directions_of(pixels);
+        trace(&problem.space, environment, hemisphere, source, pixels, |record| {
+            self.touch(e, [mask, directions], record);
         });
+        let bytes = pixels.words().len() as u64 * 8;
         for _ in Side::ALL.iter().filter(|&&side| environment.has_neighbour(side)) {
             let copy = self.next_mask();
-            self.caches.touch(mask, self.mask_bytes);
-            self.caches.touch(copy, self.mask_bytes);
+            self.caches.touch(mask, bytes);
+            self.caches.touch(copy, bytes);
         }
         self.pass_over_patches(e);
     }
@@ -184,9 +188,17 @@ impl Storage {
         place
     }
 
+    /// The table of directions that a mask belongs to: they lie one after the other.
+    fn directions_of(&self, mask: &Mask) -> u64 {
+        let own = self.problem.hemisphere_of(mask).pixels();
+        let hemispheres = self.problem.hemispheres().map(Hemisphere::pixels);
+        let before = hemispheres.take_while(|&pixels| pixels != own);
+        self.directions + before.map(u64::from).sum::<u64>() * self.layout.direction
+    }
+
     /// Touch a record of an environment.
     #[inline]
-    fn touch(&mut self, environment: usize, mask: u64, record: Record) {
+    fn touch(&mut self, environment: usize, [mask, directions]: [u64; 2], record: Record) {
         let Storage { layout, caches, .. } = self;
         let polygons = &self.polygons[if layout.by_environment { environment } else { 0 }];
         let mut touch = |array: u64, number: u32, [bytes, touched]: [u64; 2]| {
@@ -198,7 +210,7 @@ impl Storage {
             Record::Direction(pixel) => {
                 touch(self.frames, 0, [0, ray]);
                 touch(mask, pixel / 64, [8, 8]);
-                touch(self.directions, pixel, [layout.direction; 2]);
+                touch(directions, pixel, [layout.direction; 2]);
             }
             Record::Cell { place, polygons } => {
                 let [here, list] = self.cells[place as usize];
