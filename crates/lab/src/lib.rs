@@ -56,6 +56,7 @@ mod quantity;
 mod queue;
 mod ray_bench;
 mod reels;
+mod refine;
 mod report;
 mod results;
 mod runner;

@@ -16,6 +16,7 @@ mod helpers;
 mod instants;
 mod interpreter;
 mod kept_shots;
+mod ladder;
 mod memory;
 mod message;
 mod observer;
