@@ -83,8 +83,8 @@ class LiveViewer extends Viewer {
 
   ended(number) {
     if (this.deaf) return;
+    this.grow();
     byId("viewer").dataset.ended = number;
-    this.show();
     // What stands still stays, whatever else begins.
     if (!this.playing) this.deaf = true;
     else if (this.chosen) this.connect("");
