@@ -96,7 +96,8 @@ impl Family {
         }
         // Other causes are looked at where stopping is not what matters.
         let plain = &curves[..2];
-        let least = |step: usize| if plain[0].steps[step].0 < plain[1].steps[step].0 { 0 } else { 1 };
+        let least =
+            |step: usize| if plain[0].steps[step].0 < plain[1].steps[step].0 { 0 } else { 1 };
         let enough = |&step: &usize| plain[least(step)].steps[step].0 <= target / 2.0;
         let step = (0..steps).find(enough).unwrap_or(steps);
         let (stopping, ambient) = (plain[least(step)].steps[step].0, least(step) == 1);
@@ -199,7 +200,11 @@ impl Family {
 }
 
 /// A pilot run that stops where little is left, and the error of the estimate of it.
-fn converged(pilots: &Pilots, knobs: &Knobs, target: f64) -> Result<(std::rc::Rc<Pilot>, f64), String> {
+fn converged(
+    pilots: &Pilots,
+    knobs: &Knobs,
+    target: f64,
+) -> Result<(std::rc::Rc<Pilot>, f64), String> {
     let mut steps = FIRST_STEPS;
     loop {
         let pilot = pilots.run(knobs, steps)?;
@@ -211,8 +216,9 @@ fn converged(pilots: &Pilots, knobs: &Knobs, target: f64) -> Result<(std::rc::Rc
         // What is to come falls from halving to halving as it did, half as fast at best.
         let falls = if before > 0.0 { (after / before).clamp(0.5, 0.9) } else { 0.9 };
         let tail = after * falls / (1.0 - falls);
-        // A halving that no patch lies in changes nothing, and says nothing.
-        let enough = tail <= target / 4.0 && stops[last].unshot.abs() <= target;
+        // A halving that hardly a patch lies in changes nothing, and says nothing.
+        let [left, before] = [last, last - 2].map(|step| stops[step].unshot.abs());
+        let enough = tail <= target / 4.0 && (left <= target || left < 0.9 * before);
         if enough || last >= MOST_STEPS {
             return Ok((pilot, tail));
         }

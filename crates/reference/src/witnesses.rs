@@ -83,8 +83,7 @@ impl Witnesses {
 
     fn hear(&mut self, rounds: u32, threads: usize) {
         let Witnesses { space, environment, patches, seed, .. } = &*self;
-        let paths =
-            Paths::new(space, environment, patches, Problem::Continuum, self.paths, *seed);
+        let paths = Paths::new(space, environment, patches, Problem::Continuum, self.paths, *seed);
         let first = self.rounds;
         let of_one = |witness: usize| {
             let mut sum = vec![Rgb::ZERO; patches.count()];
