@@ -7,7 +7,9 @@ use desim::Time;
 use lab::{Light, Stage, Which};
 use multicomputer::quantity::{Dimension, QuantityError, parse};
 use radiosity::glam::DVec3;
-use radiosity::{Camera, Exposure, Mesh, Picture, PictureOptions, Rgb, Shading, Tone, render};
+use radiosity::{
+    Camera, Exposure, LARGEST_PICTURE, Mesh, Picture, PictureOptions, Rgb, Shading, Tone, render,
+};
 
 use crate::exit::Exit;
 
@@ -21,7 +23,7 @@ pub struct Arguments {
     /// or path to an experiment (.json), or to a folder of results: a run of it is made again
     what: String,
     /// Draw a picture to this PNG file
-    #[arg(short, long, value_name = "PNG", required_unless_present = "gltf")]
+    #[arg(short, long, value_name = "PNG", required_unless_present = "gltf", value_parser = png)]
     output: Option<PathBuf>,
     /// Write the patches to this binary glTF file: at each vertex COLOR_0, what a picture would show,
     /// exposure and tone applied, and _RADIOSITY, W/m²
@@ -257,19 +259,18 @@ impl Studio<'_> {
 
 impl View {
     fn camera(&self, scene: &radiosity::Scene) -> Result<Camera, String> {
+        let (width, height) = self.size;
         let default = match self.camera {
-            CameraArgument::Outside => Camera::overview(&scene.bounds),
-            CameraArgument::Inside => Camera::inside(&scene.bounds),
+            CameraArgument::Outside => Camera::overview(&scene.bounds, width, height),
+            CameraArgument::Inside => Camera::inside(&scene.bounds, width, height),
         };
         let local = |place: Option<DVec3>| place.map(|place| place - scene.origin);
-        let (width, height) = self.size;
         let camera = Camera {
             eye: local(self.eye).unwrap_or(default.eye),
             target: local(self.target).unwrap_or(default.target),
             up: self.up.unwrap_or(default.up),
             field_of_view_degrees: self.field_of_view.unwrap_or(default.field_of_view_degrees),
-            width,
-            height,
+            ..default
         };
         if (camera.target - camera.eye).cross(camera.up).length_squared() > 0.0 {
             Ok(camera)
@@ -296,6 +297,12 @@ fn numbered(path: &Path, frame: u32, frames: u32) -> PathBuf {
     let digits = frames.to_string().len().max(3);
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     path.with_file_name(format!("{stem}-{frame:0digits$}.png"))
+}
+
+fn png(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let is_png = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"));
+    if is_png { Ok(path) } else { Err("expected a file name that ends in .png".to_owned()) }
 }
 
 fn instant(text: &str) -> Result<Time, QuantityError> {
@@ -331,6 +338,11 @@ fn point(text: &str) -> Result<DVec3, String> {
 }
 
 fn size(text: &str) -> Result<(u32, u32), String> {
-    let size = text.split_once('x').and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
-    size.ok_or_else(|| format!("found \"{text}\"; expected pixels, such as 1200x800"))
+    let side = |text: &str| text.parse().ok().filter(|side| (1..=LARGEST_PICTURE).contains(side));
+    let size = text.split_once('x').and_then(|(w, h)| Some((side(w)?, side(h)?)));
+    size.ok_or_else(|| {
+        format!(
+            "found \"{text}\"; expected pixels, 1 to {LARGEST_PICTURE} either way, such as 1200x800"
+        )
+    })
 }

@@ -3,9 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use reference::parallel;
 use stability::{Verdict, cases, csv, page, svg, try_case};
 
 use crate::exit::Exit;
+use crate::steps::Steps;
 
 /// Which cases, and where the page goes.
 #[derive(Args)]
@@ -25,9 +27,14 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let paths = match arguments.case.is_empty() {
         true => cases(&arguments.cases)?,
-        false => arguments.case.iter().map(|name| place(&arguments.cases, name)).collect(),
+        false => (arguments.case.iter().map(|name| place(&arguments.cases, name)))
+            .collect::<Result<_, Exit>>()?,
     };
-    let verdicts = paths.iter().map(|path| try_case(path)).collect::<Result<Vec<_>, _>>()?;
+    let steps = Steps::new("cases", paths.len());
+    let try_one = |number: usize| try_case(&paths[number]);
+    let tried = parallel::map(paths.len(), parallel::host_threads(), try_one, || steps.one());
+    steps.end();
+    let verdicts = tried.into_iter().collect::<Result<Vec<_>, _>>()?;
     let all = || arguments.case.is_empty().then(|| PathBuf::from("results/stability"));
     if let Some(out) = arguments.out.clone().or_else(all) {
         write(&out, &verdicts)?;
@@ -43,9 +50,16 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
 }
 
 /// A case's file: a path, or a name in the folder of cases.
-fn place(folder: &Path, name: &str) -> PathBuf {
+fn place(folder: &Path, name: &str) -> Result<PathBuf, Exit> {
     let path = PathBuf::from(name);
-    if path.is_file() { path } else { folder.join(format!("{name}.json")) }
+    let in_folder = folder.join(format!("{name}.json"));
+    if let Some(found) = [path, in_folder].into_iter().find(|path| path.is_file()) {
+        return Ok(found);
+    }
+    let names = cases(folder)?;
+    let names = names.iter().filter_map(|path| path.file_stem()?.to_str());
+    let names: Vec<&str> = names.collect();
+    Err(Exit::bad_input(format!("unknown case \"{name}\" (there are: {})", names.join(", "))))
 }
 
 fn write(out: &Path, verdicts: &[Verdict]) -> Result<(), Exit> {

@@ -214,7 +214,6 @@ pub struct Hemisphere {
     pub rotated: bool,
     /// Whether the directions lie over each source by its place in the scene, and so turn with the
     /// scene, rather than by the axes: turned by 90° a scene then has the same light to the last digits.
-    #[serde(skip_serializing_if = "is_false")]
     pub by_place: bool,
 }
 
@@ -226,7 +225,7 @@ impl Default for Hemisphere {
             least_pixels: None,
             pixels_a_bit: 1,
             rotated: true,
-            by_place: false,
+            by_place: true,
         }
     }
 }

@@ -24,9 +24,10 @@ use crate::knobs;
 use crate::machine_file::MachineFile;
 use crate::measure::Measure;
 use crate::network;
-use crate::pilot::Pilots;
+use crate::pilot::{Host, Pilots};
 use crate::place::Place;
 use crate::plan::{Equipment, Plan, Prepared, Run};
+use crate::program::program;
 use crate::scene::Scene;
 use crate::settings::Settings;
 use crate::sweep::{Point, Sweep};
@@ -320,9 +321,10 @@ impl Planner<'_> {
                 asking.push((alike, number));
             }
         }
+        let threads = self.preparing.threads.div_ceil(asking.len().max(1));
         let tune = |asked: usize| {
             let (experiment, number) = &asking[asked];
-            self.tuned(experiment, &drafts[*number], &scenes[drafts[*number].scene].0)
+            self.tuned(experiment, &drafts[*number], &scenes[drafts[*number].scene].0, threads)
         };
         let found = parallel::map(asking.len(), self.preparing.threads, tune, || ());
         let found = found.into_iter().collect::<Result<Vec<_>, Fault>>()?;
@@ -340,6 +342,7 @@ impl Planner<'_> {
         experiment: &Experiment,
         draft: &Draft,
         scene: &Scene,
+        threads: usize,
     ) -> Result<(Experiment, Tuned), Fault> {
         let refuse = |(field, message)| self.fault(draft.point, field, message);
         let settings = Settings::of(experiment, scene).map_err(refuse)?;
@@ -347,7 +350,8 @@ impl Planner<'_> {
         let target = experiment.accuracy.map_or(1.0, |accuracy| accuracy.relative_l2);
         let watch = |runs| (self.preparing.on_pilot)(&experiment.scene, target, runs);
         let memory = self.preparing.memory / self.preparing.threads;
-        let pilots = Pilots::new(experiment, &settings, &scene.geometry, machine, memory, &watch);
+        let host = Host { memory, threads, watch: &watch };
+        let pilots = Pilots::new(experiment, &settings, &scene.geometry, machine, host);
         let pilots = pilots.map_err(refuse)?;
         let tuned =
             tune(&pilots, target).map_err(|message| refuse(("accuracy.relative_l2", message)))?;
@@ -365,7 +369,14 @@ impl Planner<'_> {
             let clock = HostClock::start();
             Ok((Scene::load(&self.scenes[scene])?, clock.cpu_seconds()))
         };
-        parallel::map(self.scenes.len(), self.preparing.threads, load, || ()).into_iter().collect()
+        let threads = self.preparing.threads;
+        std::thread::scope(|scope| {
+            // Runs will be saved under the name of this program: meanwhile it reads itself.
+            if threads > 1 {
+                scope.spawn(program);
+            }
+            parallel::map(self.scenes.len(), threads, load, || ()).into_iter().collect()
+        })
     }
 
     /// The scenes, meshed and cut as the points say, each such problem once, and which is whose.
@@ -388,10 +399,10 @@ impl Planner<'_> {
         let prepare = |number: usize| {
             let (settings, draft) = &wanted[number];
             let (scene, loading_s) = &scenes[draft.scene];
-            let clock = HostClock::start();
-            let problem = engine::problem(&scene.geometry, settings)
+            let threads = self.preparing.threads;
+            let (problem, cpu_s) = engine::problem_on(&scene.geometry, settings, threads)
                 .map_err(|(field, message)| self.fault(draft.point, field, message))?;
-            let set_up_s = loading_s + clock.cpu_seconds();
+            let set_up_s = loading_s + cpu_s;
             let (settings, digests) = (settings.clone(), scene.digests.clone());
             Ok(Prepared { settings, problem, digests, scene_bytes: scene.bytes, set_up_s })
         };

@@ -38,7 +38,7 @@ pub struct Hemisphere {
     pub(crate) sums: Option<Vec<f64>>,
     /// Whether the set is turned about the normal by an angle of the source's own.
     pub rotated: bool,
-    /// Whether it is laid by the source's place rather than by the axes: see [`Hemisphere::by_place`].
+    /// Whether it is laid by the source's place in the scene rather than by the axes: see [`Hemisphere::by_axes`].
     by_place: bool,
 }
 
@@ -96,7 +96,7 @@ impl Hemisphere {
             |j: u32| (0..side).map(move |i| (bin / n * side + j) * n * side + bin % n * side + i);
         let pixels = (0..side).flat_map(row);
         let (directions, weights) = equal(pixels.map(|i| concentric_pixel(n * side, i)).collect());
-        Hemisphere::of(&directions, &weights, false)
+        Hemisphere::of(&directions, &weights, false).by_axes()
     }
 
     /// A hemisphere of these directions, put in order.
@@ -114,13 +114,13 @@ impl Hemisphere {
             std::iter::once(0.0).chain(weights.iter().map(add)).collect()
         });
         let bundles = Bundles::new(&directions);
-        Hemisphere { bundles, directions, weights, sums, rotated, by_place: false }
+        Hemisphere { bundles, directions, weights, sums, rotated, by_place: true }
     }
 
-    /// The same directions laid over each source by where it lies from the scene's centre, so that they
-    /// turn with the scene: turned by 90° it gets the same rays, turned with it.
-    pub fn by_place(self) -> Hemisphere {
-        Hemisphere { by_place: true, ..self }
+    /// The same directions laid over each source by the axes. As made they are laid by where it lies from
+    /// the scene's centre, so that they turn with the scene: a turned scene gets the same rays, turned.
+    pub fn by_axes(self) -> Hemisphere {
+        Hemisphere { by_place: false, ..self }
     }
 
     /// Number of pixels.
@@ -359,7 +359,7 @@ mod tests {
     /// By place, frames turn with the scene about its centre.
     #[test]
     fn frames_by_place_turn_with_the_scene() {
-        let hemisphere = Hemisphere::new(HemisphereKind::Fibonacci, 16, true).unwrap().by_place();
+        let hemisphere = Hemisphere::new(HemisphereKind::Fibonacci, 16, true).unwrap();
         let turned = |p: DVec3| DVec3::new(-p.y, p.x, p.z);
         for (centre, normal) in [([0.3, 1.7, -0.2], DVec3::Z), ([1.1, -0.4, 0.9], -DVec3::X)] {
             let centre = DVec3::from(centre);

@@ -76,6 +76,7 @@ fn reel<'a>(problem: &'a Arc<Problem>, machine: &'a Machine, film: &'a Film) -> 
         machine,
         owners: Mapping::Blocks.owners(problem.environments.len() as u32, film.processors()),
         answer: None,
+        published: None,
         film,
     }
 }

@@ -1,8 +1,8 @@
 //! A scene made ready: meshed, cut into environments, with its hemisphere.
 
 use radiosity::{
-    Bounds, DepthBits, Hemisphere, LocalEnvironment, Mask, Outgoing, PatchSize, Refinement, Rgb,
-    Scene, Shot, Side, Source, Space, VirtualWalls,
+    Bounds, DepthBits, Hemisphere, HemisphereError, LocalEnvironment, Mask, Outgoing, PatchSize,
+    Refinement, Rgb, Scene, Shot, Side, Source, Space, VirtualWalls, Wanted,
 };
 use thiserror::Error;
 
@@ -66,9 +66,18 @@ pub struct Problem {
     pub depth_bits: DepthBits,
 }
 
-impl Problem {
-    /// Mesh and cut a scene.
-    pub fn new(scene: Scene, options: ProblemOptions) -> Result<Problem, ProblemError> {
+/// A scene in its grid, cut, its environments yet to be meshed: each by itself, on whatever thread.
+pub struct CutScene {
+    space: Space,
+    decomposition: Decomposition,
+    patch_size: PatchSize,
+    hemisphere: Hemisphere,
+    refinement: Option<Refinement>,
+}
+
+impl CutScene {
+    /// Cut a scene.
+    pub fn new(scene: Scene, options: ProblemOptions) -> Result<CutScene, ProblemError> {
         let ProblemOptions { patch_size, cells, cut, hemisphere } = options;
         let count = cells.iter().map(|&n| u64::from(n)).try_fold(1, u64::checked_mul);
         if !count.is_some_and(|count| (1..=MOST_CELLS).contains(&count)) {
@@ -85,28 +94,55 @@ impl Problem {
         }
         let space = Space::new(scene, cells);
         let decomposition = Decomposition::new(cells, cut);
-        let environments = (0..decomposition.environments())
-            .map(|e| LocalEnvironment::new(&space, decomposition.block(e), patch_size))
-            .collect();
-        Ok(Problem {
+        Ok(CutScene { space, decomposition, patch_size, hemisphere, refinement: None })
+    }
+
+    /// The same, its patches smaller where a pilot finds that this is wanted.
+    ///
+    /// # Errors
+    /// Those of [`Refinement::new`].
+    pub fn refined(self, wanted: Wanted) -> Result<CutScene, HemisphereError> {
+        let refinement = Refinement::new(&self.space, self.patch_size, wanted)?;
+        Ok(CutScene { refinement: Some(refinement), ..self })
+    }
+
+    /// How many environments there are.
+    pub fn environments(&self) -> u32 {
+        self.decomposition.environments()
+    }
+
+    /// Mesh one of them.
+    pub fn environment(&self, number: u32) -> LocalEnvironment {
+        let block = self.decomposition.block(number);
+        match &self.refinement {
+            Some(refinement) => refinement.mesh(&self.space, block, self.patch_size),
+            None => LocalEnvironment::new(&self.space, block, self.patch_size),
+        }
+    }
+
+    /// The problem that all of them, by number, make up.
+    pub fn with(self, environments: Vec<LocalEnvironment>) -> Problem {
+        let CutScene { space, decomposition, hemisphere, refinement, .. } = self;
+        let (ladder, walls, depth_bits) = (Ladder::default(), None, DepthBits::Sixteen);
+        Problem {
             space,
             decomposition,
             environments,
             hemisphere,
-            ladder: Ladder::default(),
-            refinement: None,
-            walls: None,
-            depth_bits: DepthBits::Sixteen,
-        })
+            ladder,
+            refinement,
+            walls,
+            depth_bits,
+        }
     }
+}
 
-    /// The same with a mesh of patches of that size, finer where that is wanted.
-    pub fn refined(mut self, size: PatchSize, refinement: Refinement) -> Problem {
-        let mesh =
-            |environment: &LocalEnvironment| refinement.mesh(&self.space, environment.block, size);
-        self.environments = self.environments.iter().map(mesh).collect();
-        self.refinement = Some(refinement);
-        self
+impl Problem {
+    /// Mesh and cut a scene.
+    pub fn new(scene: Scene, options: ProblemOptions) -> Result<Problem, ProblemError> {
+        let cut = CutScene::new(scene, options)?;
+        let environments = (0..cut.environments()).map(|e| cut.environment(e)).collect();
+        Ok(cut.with(environments))
     }
 
     /// The same with virtual walls in place of masks.
