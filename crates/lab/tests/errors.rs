@@ -111,7 +111,7 @@ fn references_that_do_not_fit_are_refused() {
         (moved, patches),
         (project(|reference| reference.subject.patch_size_m *= 0.5), patches),
         (project(|reference| reference.subject.patches_sha256 = "00".to_owned()), patches),
-        (project(|reference| drop(reference.radiosity.pop())), patches),
+        (project(|reference| _ = reference.radiosity.pop()), patches),
         (project(|reference| reference.subject.cells = [0, 1, 1]), "no sizes of patches and cells"),
         (unreadable, "expected what `reference` has stored"),
         (missing, "reference: unknown reference \"box\""),
