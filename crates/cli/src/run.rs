@@ -9,7 +9,8 @@ use multicomputer::quantity::{Dimension, QuantityError, parse};
 use reference::parallel;
 use traces::{Format, Sample};
 
-use crate::exit::Exit;
+use crate::exit::{Exit, say};
+use crate::live;
 use crate::progress::{Pilots, Progress};
 
 /// What to run, and how.
@@ -61,6 +62,8 @@ pub struct Arguments {
     /// fewest and the most processors), all, none, or rows of runs.csv such as 1,8,24
     #[arg(long, value_name = "RUNS", default_value = "auto", value_parser = viewing)]
     viewer: Viewing,
+    #[command(flatten)]
+    live: live::Serving,
     /// Print nothing but what went wrong: no progress, no table
     #[arg(long, short)]
     quiet: bool,
@@ -119,7 +122,11 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let out = arguments.out.clone().unwrap_or_else(default);
     let place = out.display();
     let traces = traces(arguments)?;
+    if arguments.live.asked() && arguments.on == OnArgument::Threads {
+        return Err(Exit::bad_input(needs_simulation("--live")));
+    }
     let shot_files = arguments.keep_shots.as_deref().map(open_shot_files).transpose()?;
+    let live = arguments.live.start(&plan)?;
     std::fs::create_dir_all(&out)
         .map_err(|error| Exit::bad_input(format!("{place}: no folder for results: {error}")))?;
 
@@ -128,9 +135,10 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         OnArgument::Threads => On::Threads,
     };
     let viewing = arguments.viewer.clone();
-    let options =
-        Options { threads, fresh: arguments.fresh, on, memory, shot_files, traces, viewing };
     let progress = Arc::new(Progress::new(Arc::clone(&plan), arguments.quiet));
+    let (fresh, pulse) = (arguments.fresh, progress.shows_pulse());
+    let feed = live.as_ref().map(|live| live.feed());
+    let options = Options { threads, fresh, on, memory, shot_files, traces, viewing, feed, pulse };
     let watch = {
         let progress = Arc::clone(&progress);
         Arc::new(move |event| progress.note(event))
@@ -141,16 +149,17 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let results = Results::of(&plan, &endings, on).map_err(Exit::failure)?;
     lab::write_host_times(&out, &endings, clock.seconds(), threads).map_err(Exit::failure)?;
     results.write(&out).map_err(Exit::failure)?;
-    let networks = lab::networks_text(&plan, &endings);
-    let mut output = format!("{}\n{}\n{networks}", plan.title, results.text());
-    output.extend(plan.settings_found().iter().map(|found| format!("{found}\n")));
-    output += &shots(&endings);
+    let mut output = output(&plan, &results, &endings);
     if let Some(trouble) = options.shot_files.and_then(|files| files.trouble()) {
         output += &format!("Shots could not be kept in {trouble}.\n");
     }
     output += &format!("Results are in {place}.\n");
     if arguments.quiet {
         output.clear();
+    }
+    if let Some(live) = live {
+        say(&std::mem::take(&mut output));
+        live.finish(&out);
     }
     match results.failures() {
         0 => Ok(output),
@@ -161,13 +170,23 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     }
 }
 
+/// The results, in words.
+fn output(plan: &Plan, results: &Results, endings: &Endings) -> String {
+    let networks = lab::networks_text(plan, endings);
+    let mut output = format!("{}\n{}\n{networks}", plan.title, results.text());
+    output.extend(plan.settings_found().iter().map(|found| format!("{found}\n")));
+    output + &shots(endings)
+}
+
+fn needs_simulation(argument: &str) -> String {
+    format!("{argument}: found --on threads; expected the simulation, which has virtual time")
+}
+
 /// The traces that are asked for, and their folder made.
 fn traces(arguments: &Arguments) -> Result<Option<Traces>, Exit> {
     let Some(folder) = arguments.trace.clone() else { return Ok(None) };
     if arguments.on == OnArgument::Threads {
-        let message =
-            "--trace: found --on threads; expected the simulation, which has virtual time";
-        return Err(Exit::bad_input(message));
+        return Err(Exit::bad_input(needs_simulation("--trace")));
     }
     std::fs::create_dir_all(&folder).map_err(|error| {
         Exit::bad_input(format!("{}: no folder for traces: {error}", folder.display()))

@@ -55,6 +55,8 @@ fn run(project: &Project) -> Results {
         shot_files: None,
         traces: None,
         viewing: Viewing::None,
+        feed: None,
+        pulse: false,
     };
     let endings = carry_out(&plan, &project.path("out"), &options, Arc::new(|_| {})).unwrap();
     Results::of(&plan, &endings, On::Simulation).unwrap()
@@ -109,7 +111,7 @@ fn references_that_do_not_fit_are_refused() {
         (moved, patches),
         (project(|reference| reference.subject.patch_size_m *= 0.5), patches),
         (project(|reference| reference.subject.patches_sha256 = "00".to_owned()), patches),
-        (project(|reference| drop(reference.radiosity.pop())), patches),
+        (project(|reference| _ = reference.radiosity.pop()), patches),
         (project(|reference| reference.subject.cells = [0, 1, 1]), "no sizes of patches and cells"),
         (unreadable, "expected what `reference` has stored"),
         (missing, "reference: unknown reference \"box\""),

@@ -20,6 +20,7 @@ class LightPanel {
     try {
       if (names.has("run")) this.open();
       if (names.has("choice")) this.look();
+      if (names.has("grown")) this.middle = middleGrey(this.state.run.scene, this.state.light.radiosity);
       if (names.has("light")) this.repaint();
       else if (names.has("choice")) this.redraw();
     } catch (error) {
@@ -31,7 +32,7 @@ class LightPanel {
   /** Another run; its scene may be that of the last one. */
   open() {
     const { run } = this.state;
-    if (this.picture?.scene !== run.scene) {
+    if (this.picture?.scene.corners !== run.scene.corners) {
       if (this.picture) this.replaceCanvas();
       this.picture = new Picture(this.canvas, run.scene);
       this.camera = new Camera(run.scene);
@@ -100,12 +101,14 @@ class LightPanel {
     this.redraw();
   }
 
-  /** What false colours mean: the shader goes from 5 stops below middle grey to 4 above. */
+  /** What colours mean, so that the same picture can be had elsewhere (`virtwall render --exposure`); the shader's
+   *  false colours go from 5 stops below middle grey to 4 above. */
   tellScale() {
     const { tone, middle } = this.picture;
-    const from = (middle * 2 ** -5).toPrecision(2);
-    const to = (middle * 2 ** 4).toPrecision(2);
-    byId("scale").textContent = tone === 2 ? `From ${from} W/m² (black) over blue, red and yellow to ${to} W/m² (white), logarithmic.` : "";
+    const stops = (by) => (middle * 2 ** by).toPrecision(2);
+    const grey = `Middle grey is ${Number(middle.toPrecision(5))} W/m².`;
+    const heat = `From ${stops(-5)} W/m² (black) over blue, red and yellow to ${stops(4)} W/m² (white), logarithmic.`;
+    byId("scale").textContent = [grey, grey, heat, ""][tone];
   }
 
   colours(kind) {

@@ -28,6 +28,8 @@ pub struct Reel<'a> {
     /// The radiosity that each patch should have, W/m², where that is known; the same for all runs of a
     /// problem.
     pub answer: Option<Arc<Vec<Rgb>>>,
+    /// The speed-up that was published for such a run, if one was.
+    pub published: Option<f64>,
     /// What happened.
     pub film: &'a Film,
 }
@@ -57,8 +59,8 @@ impl<'a> Told<'a> {
 }
 
 /// Where the ranks of a run stand on its machine, the service node last.
-pub(crate) fn places(reel: &Reel) -> Value {
-    let topology = reel.machine.topology();
+pub(crate) fn places(machine: &Machine, processors: usize) -> Value {
+    let topology = machine.topology();
     let places = topology.places().max(1);
     let (width, height, mesh) = match topology.shape() {
         Shape::Mesh { width, height } => (usize::from(width), usize::from(height), true),
@@ -68,6 +70,6 @@ pub(crate) fn places(reel: &Reel) -> Value {
             (width, places.div_ceil(width), false)
         }
     };
-    let ranks = (0..reel.film.processors()).chain([reel.machine.compute_nodes()]);
+    let ranks = (0..processors).chain([machine.compute_nodes()]);
     json!({ "width": width, "height": height, "mesh": mesh, "places": ranks.collect::<Vec<_>>() })
 }
