@@ -6,6 +6,7 @@ mod bench_rays;
 mod check;
 mod exit;
 mod formfactors;
+mod live;
 mod machine_bench;
 mod machine_compare;
 mod machine_replay;

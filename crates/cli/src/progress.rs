@@ -1,11 +1,13 @@
-//! How far an experiment is, on standard error: a bar on a terminal, else a line now and then.
+//! How far an experiment is, on standard error: on a terminal a bar, and the runs under way in a line each;
+//! else a line now and then.
 
 use std::collections::BTreeMap;
 use std::io::IsTerminal;
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
 
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
-use lab::{Event, Plan};
+use lab::{Event, Plan, Pulse};
 
 use crate::exit::note;
 
@@ -14,6 +16,12 @@ const STEPS: u64 = 1000;
 
 /// Seconds between lines where there is no bar: short runs leave none in a log.
 const BETWEEN_LINES: u64 = 5;
+
+/// The most runs under way that get a line each.
+const MOST_LINES: usize = 8;
+
+/// Characters for the name of a run: lines have to fit 80.
+const NAME: usize = 30;
 
 /// Follows runs and shows how far they are.
 pub struct Progress {
@@ -32,6 +40,8 @@ struct Counts {
     lines: u64,
     /// Shots so far of each run that is under way.
     shots: BTreeMap<usize, u64>,
+    /// How each run is that is under way.
+    pulses: BTreeMap<usize, Pulse>,
     /// Shots of the last run finished of each problem: what its next run is expected to take.
     expected: BTreeMap<usize, u64>,
 }
@@ -43,10 +53,18 @@ impl Progress {
         let target =
             if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
         let bar = ProgressBar::with_draw_target(Some(steps), target);
-        let style = ProgressStyle::with_template("{bar:36} {msg}, {elapsed} gone, {eta} left");
+        let style = ProgressStyle::with_template("{bar:36} {prefix}, {elapsed} gone{msg}");
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        if !bar.is_hidden() {
+            bar.enable_steady_tick(Duration::from_secs(1));
+        }
         let lines = !quiet && !std::io::stderr().is_terminal();
         Progress { plan, bar, lines, counts: Mutex::default() }
+    }
+
+    /// Whether it shows how runs are.
+    pub fn shows_pulse(&self) -> bool {
+        !self.bar.is_hidden()
     }
 
     /// Takes note of an event.
@@ -55,7 +73,9 @@ impl Progress {
         match event {
             Event::Found => counts.found += 1,
             Event::Shot { run } => *counts.shots.entry(run).or_default() += 1,
+            Event::Pulse { run, pulse } => drop(counts.pulses.insert(run, pulse)),
             Event::Finished { run } => {
+                counts.pulses.remove(&run);
                 let shots = counts.shots.remove(&run).unwrap_or_default();
                 counts.expected.insert(self.plan.runs[run].problem, shots);
                 counts.finished += 1;
@@ -85,15 +105,52 @@ impl Progress {
         self.bar.set_position(ended * STEPS + under_way.sum::<u64>());
         let shots: u64 = counts.shots.values().sum();
         let runs = self.plan.runs.len();
-        let message = format!("{ended} of {runs} runs, {shots} shots in this one");
+        let message = format!("{ended} of {runs} runs");
+        // Nobody knows before something has been done.
+        let left = match self.bar.position() {
+            0 => String::new(),
+            _ => format!(", {} left", HumanDuration(self.bar.eta())),
+        };
         let times_up = self.bar.elapsed().as_secs() / BETWEEN_LINES;
         if self.lines && times_up > counts.lines {
             counts.lines = times_up;
-            let [gone, left] = [self.bar.elapsed(), self.bar.eta()].map(HumanDuration);
-            note(&format!("{message}, {gone} gone, {left} left"));
+            let gone = HumanDuration(self.bar.elapsed());
+            note(&format!("{message}, {shots} shots in this one, {gone} gone{left}"));
         }
-        self.bar.set_message(message);
+        self.bar.set_prefix(message);
+        self.bar.set_message(left + &self.under_way(&counts.pulses));
     }
+
+    /// The runs under way, as a table.
+    fn under_way(&self, pulses: &BTreeMap<usize, Pulse>) -> String {
+        let mut table = String::new();
+        if !pulses.is_empty() {
+            table +=
+                &row("", ["time, s", "shots", "messages", "busy", "unshot"].map(str::to_owned));
+        }
+        for (&run, pulse) in pulses.iter().take(MOST_LINES) {
+            let mut name = self.plan.label(&self.plan.runs[run]);
+            if name.chars().count() > NAME {
+                name = name.chars().take(NAME - 1).chain(['…']).collect();
+            }
+            let busy = format!("{}/{}", pulse.busy, pulse.nodes);
+            let unshot = format!("{:.1} %", 100.0 * pulse.unshot);
+            let time = format!("{:.2}", pulse.time_s);
+            let counts = [pulse.shots, pulse.messages].map(|count| count.to_string());
+            let [shots, messages] = counts;
+            table += &row(&name, [time, shots, messages, busy, unshot]);
+        }
+        if pulses.len() > MOST_LINES {
+            table += &format!("\nand {} more", pulses.len() - MOST_LINES);
+        }
+        table
+    }
+}
+
+/// A line below the bar.
+fn row(name: &str, cells: [String; 5]) -> String {
+    let [time, shots, messages, busy, unshot] = cells;
+    format!("\n{name:NAME$} {time:>10} {shots:>8} {messages:>9} {busy:>9} {unshot:>8}")
 }
 
 /// Follows pilot runs, which find settings: nobody knows how many there will be.

@@ -7,7 +7,9 @@ use desim::Time;
 use lab::{Light, Stage, Which};
 use multicomputer::quantity::{Dimension, QuantityError, parse};
 use radiosity::glam::DVec3;
-use radiosity::{Camera, Exposure, Mesh, Picture, PictureOptions, Rgb, Shading, Tone, render};
+use radiosity::{
+    Camera, Exposure, LARGEST_PICTURE, Mesh, Picture, PictureOptions, Rgb, Shading, Tone, render,
+};
 
 use crate::exit::Exit;
 
@@ -336,6 +338,11 @@ fn point(text: &str) -> Result<DVec3, String> {
 }
 
 fn size(text: &str) -> Result<(u32, u32), String> {
-    let size = text.split_once('x').and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
-    size.ok_or_else(|| format!("found \"{text}\"; expected pixels, such as 1200x800"))
+    let side = |text: &str| text.parse().ok().filter(|side| (1..=LARGEST_PICTURE).contains(side));
+    let size = text.split_once('x').and_then(|(w, h)| Some((side(w)?, side(h)?)));
+    size.ok_or_else(|| {
+        format!(
+            "found \"{text}\"; expected pixels, 1 to {LARGEST_PICTURE} either way, such as 1200x800"
+        )
+    })
 }

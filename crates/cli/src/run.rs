@@ -9,7 +9,8 @@ use multicomputer::quantity::{Dimension, QuantityError, parse};
 use reference::parallel;
 use traces::{Format, Sample};
 
-use crate::exit::Exit;
+use crate::exit::{Exit, say};
+use crate::live;
 use crate::progress::{Pilots, Progress};
 
 /// What to run, and how.
@@ -61,6 +62,8 @@ pub struct Arguments {
     /// fewest and the most processors), all, none, or rows of runs.csv such as 1,8,24
     #[arg(long, value_name = "RUNS", default_value = "auto", value_parser = viewing)]
     viewer: Viewing,
+    #[command(flatten)]
+    live: live::Serving,
     /// Print nothing but what went wrong: no progress, no table
     #[arg(long, short)]
     quiet: bool,
@@ -119,6 +122,9 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let out = arguments.out.clone().unwrap_or_else(default);
     let place = out.display();
     let traces = traces(arguments)?;
+    if arguments.live.asked() && arguments.on == OnArgument::Threads {
+        return Err(Exit::bad_input(needs_simulation("--live")));
+    }
     let shot_files = arguments.keep_shots.as_deref().map(open_shot_files).transpose()?;
     std::fs::create_dir_all(&out)
         .map_err(|error| Exit::bad_input(format!("{place}: no folder for results: {error}")))?;
@@ -128,9 +134,11 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         OnArgument::Threads => On::Threads,
     };
     let viewing = arguments.viewer.clone();
-    let options =
-        Options { threads, fresh: arguments.fresh, on, memory, shot_files, traces, viewing };
     let progress = Arc::new(Progress::new(Arc::clone(&plan), arguments.quiet));
+    let live = arguments.live.start(&plan)?;
+    let (fresh, pulse) = (arguments.fresh, progress.shows_pulse());
+    let feed = live.as_ref().map(|live| live.feed());
+    let options = Options { threads, fresh, on, memory, shot_files, traces, viewing, feed, pulse };
     let watch = {
         let progress = Arc::clone(&progress);
         Arc::new(move |event| progress.note(event))
@@ -152,6 +160,10 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     if arguments.quiet {
         output.clear();
     }
+    if let Some(live) = live {
+        say(&std::mem::take(&mut output));
+        live.finish(&out);
+    }
     match results.failures() {
         0 => Ok(output),
         failures => {
@@ -161,13 +173,15 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     }
 }
 
+fn needs_simulation(argument: &str) -> String {
+    format!("{argument}: found --on threads; expected the simulation, which has virtual time")
+}
+
 /// The traces that are asked for, and their folder made.
 fn traces(arguments: &Arguments) -> Result<Option<Traces>, Exit> {
     let Some(folder) = arguments.trace.clone() else { return Ok(None) };
     if arguments.on == OnArgument::Threads {
-        let message =
-            "--trace: found --on threads; expected the simulation, which has virtual time";
-        return Err(Exit::bad_input(message));
+        return Err(Exit::bad_input(needs_simulation("--trace")));
     }
     std::fs::create_dir_all(&folder).map_err(|error| {
         Exit::bad_input(format!("{}: no folder for traces: {error}", folder.display()))

@@ -3,7 +3,6 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
 
-#[allow(dead_code, reason = "other tests press keys, too")]
 mod browser;
 
 use std::fs;

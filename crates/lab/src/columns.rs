@@ -8,6 +8,7 @@ use crate::error_causes;
 use crate::errors;
 use crate::figures::Figures;
 use crate::message_layer;
+use crate::refine;
 use crate::start_up;
 use crate::sweep::Axis;
 use crate::tuned;
@@ -79,6 +80,8 @@ const OF_MEMORY: [&str; 2] = ["memory_high_water", "paging_s"];
 const OF_MEDIA: [&str; 1] = ["absorbed_by_media"];
 /// The columns after these, where processors have caches: what they cost, and Figure 11's gain.
 const OF_CACHES: [&str; 2] = ["missing_s", "gain"];
+/// The column after these, where processors look for translations of addresses.
+const OF_TRANSLATIONS: [&str; 1] = ["translating_s"];
 
 /// What columns there are besides those of every sweep.
 #[derive(Clone, Copy, Debug)]
@@ -93,8 +96,12 @@ pub struct Also {
     pub accuracy: bool,
     /// That of participating media.
     pub media: bool,
+    /// Those of refined meshes.
+    pub refine: bool,
     /// Those of the processors' caches.
     pub caches: bool,
+    /// That of translations of addresses.
+    pub translations: bool,
     /// Those of errors.
     pub errors: bool,
     /// Those of what makes the errors up.
@@ -112,13 +119,16 @@ impl Also {
         let layer = message_layer::COLUMNS.into_iter().filter(move |_| self.message_layer);
         let media = OF_MEDIA.into_iter().filter(move |_| self.media);
         let caches = OF_CACHES.into_iter().filter(move |_| self.caches);
+        let translations = OF_TRANSLATIONS.into_iter().filter(move |_| self.translations);
+        let caches = caches.chain(translations);
+        let refine = refine::COLUMNS.into_iter().filter(move |_| self.refine);
         let errors = errors::COLUMNS.into_iter().filter(move |_| self.errors);
         let display = display::COLUMNS.into_iter().filter(move |_| self.display);
         let start_up = start_up::COLUMNS.into_iter().filter(move |_| self.start_up);
         let machine = network.chain(memory).chain(layer).chain(display).chain(start_up);
         let causes = error_causes::COLUMNS.into_iter().filter(move |_| self.causes);
         let accuracy = tuned::COLUMNS.into_iter().filter(move |_| self.accuracy);
-        machine.chain(caches).chain(media).chain(errors).chain(causes).chain(accuracy)
+        machine.chain(caches).chain(media).chain(refine).chain(errors).chain(causes).chain(accuracy)
     }
 }
 
@@ -145,6 +155,7 @@ pub fn figure(figures: &Figures, column: &str) -> Option<String> {
         "memory_high_water" => memory.map_or(String::new(), |memory| memory.high_water.to_string()),
         "paging_s" => optional(memory.map(|memory| memory.paging_s), 6),
         "missing_s" => optional(figures.missing_s, 6),
+        "translating_s" => optional(figures.translating_s, 6),
         "time_s" => optional(figures.time_s, 6),
         "local_shots" => figures.local_shots.to_string(),
         "received_shots" => figures.received_shots.to_string(),

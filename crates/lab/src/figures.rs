@@ -44,6 +44,9 @@ pub struct Figures {
     /// Seconds that processors waited for what their caches missed, all added; none without caches.
     #[serde(default)]
     pub missing_s: Option<f64>,
+    /// Seconds that processors waited for translations of addresses, all added; none where all are known.
+    #[serde(default)]
+    pub translating_s: Option<f64>,
     /// What it tells of its network, if that was asked for.
     #[serde(default)]
     pub network: Option<NetworkFigures>,

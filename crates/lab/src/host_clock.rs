@@ -30,6 +30,30 @@ impl HostClock {
     }
 }
 
+/// Something that is due every so many host seconds.
+pub struct Interval {
+    clock: HostClock,
+    every: f64,
+    due: f64,
+}
+
+impl Interval {
+    /// Of so many seconds; due at once.
+    pub fn new(every: f64) -> Interval {
+        Interval { clock: HostClock::start(), every, due: 0.0 }
+    }
+
+    /// Whether it is due; if so, next time is an interval from now.
+    pub fn is_due(&mut self) -> bool {
+        let now = self.clock.seconds();
+        let due = now >= self.due;
+        if due {
+            self.due = now + self.every;
+        }
+        due
+    }
+}
+
 /// What the host took for one run.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct HostTimes {

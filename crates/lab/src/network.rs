@@ -39,6 +39,12 @@ pub fn tells(machine: &Machine, choice: Option<Model>) -> bool {
     choice.is_some() || machine.rung.is_none()
 }
 
+/// Whether runs are simulated to find out which model will do: whoever observes one then has it simulated
+/// once more.
+pub fn is_open(machine: &Machine, choice: Option<Model>) -> bool {
+    choice.map_or(machine.rung, Model::rung).is_none()
+}
+
 /// Simulates a run on the model that an experiment asks for, or else the machine's file, and tells
 /// `observer` of it.
 ///

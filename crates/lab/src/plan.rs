@@ -9,7 +9,7 @@ use serde_json::Value;
 use virtwall::Problem;
 
 use crate::answer::{Answer, DenseAnswers, Stored};
-use crate::columns::Also;
+use crate::columns::{self, Also};
 use crate::comparison::Comparison;
 use crate::digest::FileDigest;
 use crate::experiment::{Experiment, Plot};
@@ -57,6 +57,19 @@ impl Plan {
         sentences
     }
 
+    /// What tells a run from the others: its scene, its processors, and whatever else is swept.
+    pub fn label(&self, run: &Run) -> String {
+        let plural = if run.point.processors == 1 { "" } else { "s" };
+        let mut label = format!("{}, {} processor{plural}", run.point.scene, run.point.processors);
+        for (axis, &item) in self.axes.iter().zip(&run.index) {
+            let field = axis.place.to_string();
+            if !["scene", "processors"].contains(&field.as_str()) {
+                label += &format!(", {field} {}", columns::cell(&axis.values[item]));
+            }
+        }
+        label
+    }
+
     /// What its results tell of besides what all do.
     pub fn also(&self) -> Also {
         let machine = |run: &Run| &self.machines[run.machine].machine;
@@ -64,6 +77,7 @@ impl Plan {
             network: self.runs.iter().any(|run| network::tells(machine(run), run.point.network)),
             memory: self.runs.iter().any(|run| machine(run).node_memory.is_some()),
             media: self.problems.iter().any(|p| !p.problem.space.scene.media.is_empty()),
+            refine: self.problems.iter().any(|p| p.problem.refinement.is_some()),
             message_layer: self.runs.iter().any(|run| message_layer::tells(machine(run))),
             accuracy: self
                 .runs
@@ -71,6 +85,7 @@ impl Plan {
                 .any(|run| run.tuned.is_some() || run.point.accuracy.is_some()),
             causes: self.runs.iter().any(|run| run.point.error_causes),
             caches: self.runs.iter().any(|run| !machine(run).processor.caches.is_empty()),
+            translations: self.runs.iter().any(|run| machine(run).processor.translations.is_some()),
             errors: self.runs.iter().any(|run| run.point.reference.is_some()),
             display: self.runs.iter().any(|run| machine(run).display.is_some()),
             start_up: self.runs.iter().any(|run| machine(run).start_up.is_some()),

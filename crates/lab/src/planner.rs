@@ -24,7 +24,7 @@ use crate::knobs;
 use crate::machine_file::MachineFile;
 use crate::measure::Measure;
 use crate::network;
-use crate::pilot::Pilots;
+use crate::pilot::{Host, Pilots};
 use crate::place::Place;
 use crate::plan::{Equipment, Plan, Prepared, Run};
 use crate::program::program;
@@ -321,9 +321,10 @@ impl Planner<'_> {
                 asking.push((alike, number));
             }
         }
+        let threads = self.preparing.threads.div_ceil(asking.len().max(1));
         let tune = |asked: usize| {
             let (experiment, number) = &asking[asked];
-            self.tuned(experiment, &drafts[*number], &scenes[drafts[*number].scene].0)
+            self.tuned(experiment, &drafts[*number], &scenes[drafts[*number].scene].0, threads)
         };
         let found = parallel::map(asking.len(), self.preparing.threads, tune, || ());
         let found = found.into_iter().collect::<Result<Vec<_>, Fault>>()?;
@@ -341,6 +342,7 @@ impl Planner<'_> {
         experiment: &Experiment,
         draft: &Draft,
         scene: &Scene,
+        threads: usize,
     ) -> Result<(Experiment, Tuned), Fault> {
         let refuse = |(field, message)| self.fault(draft.point, field, message);
         let settings = Settings::of(experiment, scene).map_err(refuse)?;
@@ -348,7 +350,8 @@ impl Planner<'_> {
         let target = experiment.accuracy.map_or(1.0, |accuracy| accuracy.relative_l2);
         let watch = |runs| (self.preparing.on_pilot)(&experiment.scene, target, runs);
         let memory = self.preparing.memory / self.preparing.threads;
-        let pilots = Pilots::new(experiment, &settings, &scene.geometry, machine, memory, &watch);
+        let host = Host { memory, threads, watch: &watch };
+        let pilots = Pilots::new(experiment, &settings, &scene.geometry, machine, host);
         let pilots = pilots.map_err(refuse)?;
         let tuned =
             tune(&pilots, target).map_err(|message| refuse(("accuracy.relative_l2", message)))?;

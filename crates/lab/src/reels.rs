@@ -5,10 +5,9 @@ use std::sync::Arc;
 use radiosity::Rgb;
 use viewer::{Recorded, Reel};
 
-use crate::columns;
 use crate::engine;
 use crate::errors::laid_on;
-use crate::plan::{Plan, Run, all_else};
+use crate::plan::{Plan, all_else};
 use crate::runner::Endings;
 
 /// Bytes that recordings may take in a report, about.
@@ -33,7 +32,7 @@ pub fn recorded(plan: &Plan, endings: &Endings) -> Option<Recorded> {
         }
         let published = plan.comparison.of(&run.point.scene, run.point.processors);
         reels.push(Reel {
-            label: label(plan, run),
+            label: plan.label(run),
             scene: run.point.scene.clone(),
             group,
             problem,
@@ -45,17 +44,4 @@ pub fn recorded(plan: &Plan, endings: &Endings) -> Option<Recorded> {
         });
     }
     (!reels.is_empty()).then(|| Recorded::of(&reels, LIMIT))
-}
-
-/// What tells a run from the others: its scene, its processors, and whatever else is swept.
-fn label(plan: &Plan, run: &Run) -> String {
-    let plural = if run.point.processors == 1 { "" } else { "s" };
-    let mut label = format!("{}, {} processor{plural}", run.point.scene, run.point.processors);
-    for (axis, &item) in plan.axes.iter().zip(&run.index) {
-        let field = axis.place.to_string();
-        if !["scene", "processors"].contains(&field.as_str()) {
-            label += &format!(", {field} {}", columns::cell(&axis.values[item]));
-        }
-    }
-    label
 }

@@ -27,7 +27,6 @@ pub fn html(
     drawings: &[String],
     recorded: Option<&Recorded>,
 ) -> String {
-    let title = escape(&columns::cell(&manifest["title"]));
     let lead = lead(manifest, runs);
     let compared = Summary::of(runs).lines();
     let summary =
@@ -47,11 +46,8 @@ pub fn html(
     let experiment = escape(&experiment);
     let files = files(manifest);
     let [viewer_style, answers, data] = recorded.map(viewer_parts).unwrap_or_default();
-    format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width\">\n<title>{title}</title>\n\
-         <style>\n{STYLE}{viewer_style}</style>\n</head>\n<body>\n\
-         <h1>{title}</h1>\n{lead}{summary}{warnings}{found}{figures}{answers}\
+    let body = format!(
+        "{lead}{summary}{warnings}{found}{figures}{answers}\
          {cheapest}<h2>Runs</h2>\n{ratios}{grouped}\
          <details><summary>All columns</summary>\n{all}</details>\n\
          <h2>Choices</h2>\n\
@@ -59,8 +55,19 @@ pub fn html(
          <h2>Scenes</h2>\n{problems}\
          <h2>Configuration</h2>\n<p>Every field, defaults filled in. It is an experiment file \
          that gives these results again.</p>\n<pre>{experiment}</pre>\n\
-         <h2>Files</h2>\n{files}{data}\
-         </body>\n</html>\n"
+         <h2>Files</h2>\n{files}{data}"
+    );
+    page(&columns::cell(&manifest["title"]), &viewer_style, &body)
+}
+
+/// A page in the report's style, and some more.
+pub fn page(title: &str, style: &str, body: &str) -> String {
+    let title = escape(title);
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width\">\n<title>{title}</title>\n\
+         <style>\n{STYLE}{style}</style>\n</head>\n<body>\n\
+         <h1>{title}</h1>\n{body}</body>\n</html>\n"
     )
 }
 

@@ -7,17 +7,20 @@ use std::rc::Rc;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use radiosity::Rgb;
-use viewer::Film;
-use virtwall::{Helpers, KeptShots, Memory, Recording, SharedObserver, ShotCounts};
+use viewer::{Broadcast, Film};
+use virtwall::{Helpers, KeptShots, Memory, Observers, Recording, SharedObserver, ShotCounts};
 
 use crate::answer::DenseAnswers;
 use crate::causes::Explained;
 use crate::engine::{self, On};
 use crate::errors::{ErrorFigures, Radiosity, Yardstick};
+use crate::feed::{Feed, Follower, News};
 use crate::figures::Figures;
 use crate::held::held;
 use crate::host_clock::{HostClock, HostTimes};
+use crate::network;
 use crate::plan::{Plan, Prepared};
+use crate::pulse::{Heart, Pulse};
 use crate::queue::{Queue, Task};
 use crate::saved::Saved;
 use crate::shot_files::ShotFiles;
@@ -40,6 +43,10 @@ pub struct Options {
     pub traces: Option<Traces>,
     /// Which runs the report's viewer shows.
     pub viewing: Viewing,
+    /// Who follows simulated runs while they are under way.
+    pub feed: Option<Feed>,
+    /// Whether simulated runs tell how they are, as events.
+    pub pulse: bool,
 }
 
 /// Something that happened while a plan is carried out.
@@ -51,6 +58,13 @@ pub enum Event {
     Shot {
         /// Index into [`Plan::runs`].
         run: usize,
+    },
+    /// How a run is; told now and then.
+    Pulse {
+        /// Index into [`Plan::runs`].
+        run: usize,
+        /// How.
+        pulse: Pulse,
     },
     /// A run has ended.
     Finished {
@@ -247,9 +261,18 @@ impl Desk<'_> {
         // A trace needs no light.
         let recording = (traces.is_some() && !filmed)
             .then(|| Rc::new(RefCell::new(Recording::new(problem, processors))));
-        let observer = film.clone().map(|film| film as SharedObserver);
-        let observer = observer.or(recording.clone().map(|recording| recording as SharedObserver));
-        let ended = engine::carry_out(&run, point, on, machine, *scene_bytes, observer);
+        let broadcast = self.broadcast(task.run, &run);
+        let observers = [
+            film.clone().map(|film| film as SharedObserver),
+            recording.clone().map(|recording| recording as SharedObserver),
+            broadcast.clone().map(|broadcast| broadcast as SharedObserver),
+            self.heart(task.run, &run),
+        ];
+        let ended = engine::carry_out(&run, point, on, machine, *scene_bytes, together(observers));
+        if let (Some(broadcast), Some(feed)) = (broadcast, &self.options.feed) {
+            broadcast.borrow_mut().tell();
+            feed(task.run, News::End);
+        }
         let film = film.and_then(Rc::into_inner).map(RefCell::into_inner);
         let recording = recording.and_then(Rc::into_inner).map(RefCell::into_inner);
         // Of a run that failed, too: there it is needed most.
@@ -259,5 +282,34 @@ impl Desk<'_> {
         };
         held(&self.films)[task.run] = film.filter(|_| ended.is_ok());
         (ended, traced)
+    }
+
+    /// Tells those who follow runs of this one.
+    fn broadcast(&self, index: usize, run: &virtwall::Run) -> Option<Rc<RefCell<Broadcast>>> {
+        let feed = self.options.feed.clone().filter(|_| self.options.on == On::Simulation)?;
+        let broadcast = Broadcast::new(&run.problem, run.processors, Follower::new(index, feed));
+        Some(Rc::new(RefCell::new(broadcast)))
+    }
+
+    /// Tells how a run is, where that is asked for and costs no other simulation.
+    fn heart(&self, index: usize, run: &virtwall::Run) -> Option<SharedObserver> {
+        let of = &self.plan.runs[index];
+        let machine = &self.plan.machines[of.machine].machine;
+        let watched = self.options.feed.is_some() || self.filmed[index];
+        let costs_nothing = watched || !network::is_open(machine, of.point.network);
+        (self.options.pulse && costs_nothing).then(|| {
+            let watch = Arc::clone(&self.watch);
+            let tell = move |pulse| watch(Event::Pulse { run: index, pulse });
+            Rc::new(RefCell::new(Heart::new(run, tell))) as SharedObserver
+        })
+    }
+}
+
+/// Observers as one, if there are any.
+fn together(observers: [Option<SharedObserver>; 4]) -> Option<SharedObserver> {
+    let mut observers: Vec<SharedObserver> = observers.into_iter().flatten().collect();
+    match observers.len() {
+        0 | 1 => observers.pop(),
+        _ => Some(Rc::new(RefCell::new(Observers(observers)))),
     }
 }

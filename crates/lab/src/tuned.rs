@@ -3,9 +3,10 @@
 use crate::pilot::Knobs;
 
 /// The columns of runs.csv.
-pub const COLUMNS: [&str; 8] = [
+pub const COLUMNS: [&str; 9] = [
     "target_l2",
     "predicted_l2",
+    "predicted_deviation",
     "predicted_directions",
     "predicted_centre",
     "predicted_mesh",
@@ -21,7 +22,11 @@ pub struct Tuned {
     pub target: f64,
     /// The setting.
     pub knobs: Knobs,
-    /// Its errors by cause.
+    /// Its error, as witnesses say.
+    pub error: f64,
+    /// The standard error of what they say.
+    pub deviation: f64,
+    /// What makes it up, by the laws that led there.
     pub predicted: Causes,
     /// Its virtual time on one processor, seconds.
     pub time_s: f64,
@@ -65,7 +70,8 @@ impl Tuned {
         let Causes { directions, centre, mesh, stopping } = self.predicted;
         let value = match column {
             "target_l2" => return Some(self.target.to_string()),
-            "predicted_l2" => self.predicted.total(),
+            "predicted_l2" => self.error,
+            "predicted_deviation" => self.deviation,
             "predicted_directions" => directions,
             "predicted_centre" => centre,
             "predicted_mesh" => mesh,
@@ -83,10 +89,11 @@ impl Tuned {
         let causes =
             self.predicted.named().map(|(name, error)| format!("{name} {}", percent(error)));
         format!(
-            "{scene} to {}: {}. Predicted error {} ({}), {:.0} s on one processor; {} pilot runs.",
+            "{scene} to {}: {}. Predicted error {:.2} ± {} ({}), {:.0} s on one processor; {} pilot runs.",
             percent(self.target),
             self.knobs,
-            percent(self.predicted.total()),
+            100.0 * self.error,
+            percent(self.deviation),
             causes.join(", "),
             self.time_s,
             self.pilots,

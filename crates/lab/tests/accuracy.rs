@@ -29,6 +29,8 @@ fn run(threads: usize) -> Results {
         shot_files: None,
         traces: None,
         viewing: Viewing::None,
+        feed: None,
+        pulse: false,
     };
     let endings = carry_out(&plan, &project.path("out"), &options, Arc::new(|_| {})).unwrap();
     Results::of(&plan, &endings, On::Simulation).unwrap()

@@ -1,7 +1,7 @@
-//! A processor's caches, line by line.
+//! A processor's caches, line by line, and the translations of addresses that it holds, page by page.
 
 use crate::fault::MachineFault;
-use crate::file::CachesFile;
+use crate::file::{CachesFile, TranslationsFile};
 
 /// Largest line and cache, bytes: beyond them a file can only be a slip.
 const LONGEST_LINE: u64 = 65_536;
@@ -44,10 +44,23 @@ pub(crate) fn levels(files: &CachesFile) -> Result<Vec<CacheLevel>, MachineFault
     Ok(levels)
 }
 
+/// Translations as a cache of pages of which any may take the place of any other.
+pub(crate) fn translations(file: &TranslationsFile) -> Result<CacheLevel, MachineFault> {
+    let (page, ways) = (file.page.value.si, u64::from(file.entries.value.get()));
+    if page > LONGEST_LINE as f64 || page.fract() != 0.0 || !(page as u64).is_power_of_two() {
+        let expected = format!("expected a power of two, at most {LONGEST_LINE} B");
+        let message = format!("found {page} B; {expected}");
+        return Err(MachineFault::at("processor.caches.translations.page.value", message));
+    }
+    let line = page as u64;
+    Ok(CacheLevel { size: line * ways, line, ways, miss_time: file.miss_time.value.si })
+}
+
 /// What the caches of one processor hold, and how often they missed.
 #[derive(Clone, Debug)]
 pub struct Caches {
     levels: Vec<Cache>,
+    translations: Option<Cache>,
 }
 
 #[derive(Clone, Debug)]
@@ -65,21 +78,20 @@ struct Cache {
 const NONE: u64 = u64::MAX;
 
 impl Caches {
-    /// Empty caches, the nearest level first.
-    pub fn new(levels: &[CacheLevel]) -> Caches {
-        let cache = |level: &CacheLevel| Cache {
-            line: level.line.trailing_zeros(),
-            sets: level.size / level.line / level.ways - 1,
-            held: vec![NONE; (level.size / level.line) as usize],
-            misses: 0,
-            level: level.clone(),
-        };
-        Caches { levels: levels.iter().map(cache).collect() }
+    /// Empty caches, the nearest level first, and no translations known, where misses of them count.
+    pub fn new(levels: &[CacheLevel], translations: Option<&CacheLevel>) -> Caches {
+        let levels = levels.iter().map(Cache::new).collect();
+        Caches { levels, translations: translations.map(Cache::new) }
     }
 
     /// Read or write some bytes, at least one.
     #[inline]
     pub fn touch(&mut self, address: u64, bytes: u64) {
+        if let Some(pages) = &mut self.translations {
+            for page in address >> pages.line..=(address + bytes - 1) >> pages.line {
+                pages.touch(page);
+            }
+        }
         let Some((first, next)) = self.levels.split_first_mut() else { return };
         for line in address >> first.line..=(address + bytes - 1) >> first.line {
             if !first.touch(line) {
@@ -94,13 +106,37 @@ impl Caches {
         self.levels.iter().map(|cache| cache.misses)
     }
 
-    /// Seconds that all misses so far cost.
+    /// Pages so far whose translation was not there.
+    pub fn untranslated(&self) -> u64 {
+        self.translations.as_ref().map_or(0, |pages| pages.misses)
+    }
+
+    /// Seconds that all misses of the levels so far cost.
     pub fn time(&self) -> f64 {
-        self.levels.iter().map(|cache| cache.misses as f64 * cache.level.miss_time).sum()
+        self.levels.iter().map(Cache::time).sum()
+    }
+
+    /// Seconds that all missing translations so far cost.
+    pub fn translating_time(&self) -> f64 {
+        self.translations.as_ref().map_or(0.0, Cache::time)
     }
 }
 
 impl Cache {
+    fn new(level: &CacheLevel) -> Cache {
+        Cache {
+            line: level.line.trailing_zeros(),
+            sets: level.size / level.line / level.ways - 1,
+            held: vec![NONE; (level.size / level.line) as usize],
+            misses: 0,
+            level: level.clone(),
+        }
+    }
+
+    fn time(&self) -> f64 {
+        self.misses as f64 * self.level.miss_time
+    }
+
     /// Use a line; whether it was there.
     #[inline]
     fn touch(&mut self, line: u64) -> bool {
@@ -128,7 +164,7 @@ mod tests {
     }
 
     fn misses(levels: &[CacheLevel], touches: &[(u64, u64)]) -> Vec<u64> {
-        let mut caches = Caches::new(levels);
+        let mut caches = Caches::new(levels, None);
         touches.iter().for_each(|&(address, bytes)| caches.touch(address, bytes));
         caches.misses().collect()
     }
@@ -144,6 +180,35 @@ mod tests {
     fn the_least_recently_used_line_makes_room() {
         let touches = [(0, 1), (128, 1), (0, 1), (256, 1), (0, 1), (128, 1)];
         assert_eq!(misses(&[level(256, 32, 2)], &touches), [4]);
+    }
+
+    /// The list of pages, the one used last at its end, searched from end to end.
+    #[test]
+    fn translations_are_those_of_the_pages_used_last() {
+        let pages = level(64 * 8_192, 8_192, 64);
+        let mut caches = Caches::new(&[level(256, 32, 1)], Some(&pages));
+        let (mut held, mut expected, mut random) = (Vec::new(), 0, 1_u64);
+        for _ in 0..20_000 {
+            random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            // Half of them in 16 pages, the others in 128.
+            let page = (random >> 33) % if random >> 63 == 0 { 16 } else { 128 };
+            caches.touch(page * 8_192 + (random >> 40) % 8_000, 8);
+            let found = held.iter().position(|&other| other == page);
+            expected += u64::from(found.is_none());
+            found.map(|place| held.remove(place));
+            held.push(page);
+            held.drain(..held.len().saturating_sub(64));
+        }
+        assert!(1_000 < expected && expected < 10_000, "{expected}");
+        assert_eq!(caches.untranslated(), expected);
+        assert_eq!(caches.translating_time(), expected as f64);
+    }
+
+    #[test]
+    fn a_touch_across_pages_needs_the_translations_of_all() {
+        let mut caches = Caches::new(&[], Some(&level(4 * 64, 64, 4)));
+        caches.touch(60, 70);
+        assert_eq!(caches.untranslated(), 3);
     }
 
     #[test]

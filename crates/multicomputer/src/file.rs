@@ -122,6 +122,24 @@ pub(crate) struct CachesFile {
     pub(crate) primary: CacheFile,
     /// The one behind it.
     pub(crate) secondary: Option<CacheFile>,
+    /// The translation look-aside buffer. Without one all pages' addresses are known.
+    pub(crate) translations: Option<TranslationsFile>,
+}
+
+/// The addresses of pages that a processor knows. Each touch of a page that is not among them is a miss;
+/// the least recently used one makes room.
+#[derive(Deserialize, JsonSchema)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "an object that describes a translation look-aside buffer"
+)]
+pub(crate) struct TranslationsFile {
+    /// Pages whose addresses it holds.
+    pub(crate) entries: Sourced<NonZeroU16>,
+    /// Bytes of a page.
+    pub(crate) page: Sourced<Quantity<Bytes>>,
+    /// What a miss takes.
+    pub(crate) miss_time: Sourced<Quantity<Time>>,
 }
 
 /// A data cache.

@@ -297,7 +297,9 @@ fn links(file: &LinksFile, software: &LogGpParameters) -> Result<LinkParameters,
 
 fn processor(file: ProcessorFile) -> Result<Processor, MachineFault> {
     let cycles = file.operations.into_iter().map(|(name, cycles)| (name, cycles.value.si));
+    let translations = file.caches.as_ref().and_then(|caches| caches.translations.as_ref());
     Ok(Processor {
+        translations: translations.map(cache::translations).transpose()?,
         clock: file.clock.value.si,
         scale: file.scale.value.0,
         cycles: cycles.collect(),

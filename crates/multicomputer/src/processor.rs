@@ -15,6 +15,8 @@ pub struct Processor {
     pub cycles: BTreeMap<String, f64>,
     /// Its caches, the nearest first; none where the cycles hold what misses cost.
     pub caches: Vec<CacheLevel>,
+    /// The translations of addresses that it holds, as a cache of pages; none where all are known.
+    pub translations: Option<CacheLevel>,
 }
 
 impl Processor {

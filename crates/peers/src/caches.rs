@@ -5,7 +5,7 @@ use std::fmt::Write;
 use std::process::Command;
 use std::sync::Arc;
 
-use multicomputer::CacheLevel;
+use multicomputer::{CacheLevel, Caches};
 use serde::Serialize;
 use virtwall::{Layout, Parcel, Problem, Storage};
 
@@ -23,25 +23,28 @@ const SHORTEST_LINE: u64 = 32;
 const LIGHTS: usize = 3;
 const UNCOUNTED: usize = 1;
 
-/// Where arrays begin in memory is luck, and decides which of them fall on each other in a direct-mapped
-/// cache. Of several placements the median counts, valgrind's and the model's: bytes from which the
-/// allocator gives an array pages of its own, and bytes that the model leaves between arrays.
-const PLACEMENTS: [u64; 3] = [4_096, 131_072, 1 << 30];
+/// Where arrays and the stack begin in memory is luck, and decides which of them fall on each other in a
+/// direct-mapped cache. Of several placements the median counts, valgrind's and the model's: bytes from which
+/// the allocator gives an array pages of its own and bytes by which the stack begins further down; bytes that
+/// the model leaves between arrays.
+const PLACEMENTS: [(u64, usize); 5] =
+    [(4_096, 0), (131_072, 3_100), (1 << 30, 6_200), (131_072, 9_300), (4_096, 12_400)];
 const GAPS: [u64; 7] = [16, 1_040, 2_064, 3_088, 5_008, 6_032, 7_056];
 
-/// The native kernel's records. Its polygons are 120 B, of which a test of the plane reads the better
-/// part. Frames of the three functions inside each other (1.4 KB as compiled) and the planes of the grid
-/// are in constant use.
+/// The native kernel's records as the compiler lays them out: of a polygon's 120 B a test reads normal and
+/// offset, and one whose plane is met where its edges are.
 const NATIVE: Layout = Layout {
     direction: 24,
     cell: [4, 8],
     entry: 4,
-    plane: [120, 88],
-    edges: [96, 96],
+    crossing: 8,
+    plane: [120, 32, 56],
+    edges: [96, 24],
+    number: 4,
     axes: [80, 80],
     slot: 4,
     patch: [304, 96, 16],
-    frames: [2_048, 144, 72],
+    scalars: Layout::PLAIN_C.scalars,
     gap: 0,
     by_environment: false,
 };
@@ -143,7 +146,7 @@ fn counted(
     scene: &str,
     environments: u32,
     levels: &[CacheLevel],
-    placement: u64,
+    (own_pages, stack): (u64, usize),
 ) -> Result<Counts, String> {
     let own = std::env::current_exe().map_err(|error| error.to_string())?;
     let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
@@ -155,7 +158,7 @@ fn counted(
     }
     valgrind.arg("--toggle-collect=peers::shots::counted");
     valgrind.arg(format!("--callgrind-out-file={}", output.display()));
-    valgrind.env("MALLOC_MMAP_THRESHOLD_", placement.to_string());
+    valgrind.env("MALLOC_MMAP_THRESHOLD_", own_pages.to_string()).env("PADDING", "-".repeat(stack));
     valgrind.arg(own).args(["shots", scene, &environments.to_string()]);
     run(&mut valgrind, "valgrind")?;
     let text = std::fs::read_to_string(&output).map_err(|error| error.to_string())?;
@@ -182,12 +185,13 @@ fn uncounted(shots: &[Parcel]) -> usize {
 
 /// Misses of each level as the model has them.
 fn modelled(problem: &Arc<Problem>, shots: &[Parcel], levels: &[CacheLevel], gap: u64) -> Vec<u64> {
-    let mut storage = Storage::new(problem, Layout { gap, ..NATIVE }, levels);
+    let caches = Caches::new(levels, None);
+    let mut storage = Storage::new(problem, Layout { gap, ..NATIVE }, caches);
     let (first, others) = shots.split_at(uncounted(shots));
     first.iter().for_each(|parcel| storage.shoot(parcel));
-    let before = storage.misses();
+    let before: Vec<u64> = storage.caches().misses().collect();
     others.iter().for_each(|parcel| storage.shoot(parcel));
-    storage.misses().iter().zip(before).map(|(after, before)| after - before).collect()
+    storage.caches().misses().zip(before).map(|(after, before)| after - before).collect()
 }
 
 /// Misses as arrays lie.

@@ -5,7 +5,8 @@ use std::collections::VecDeque;
 use std::path::Path;
 use std::sync::Arc;
 
-use radiosity::{End, Light, Mask, Ray, Rgb, Side, Source, Work, cast, shoot};
+use radiosity::glam::DVec3;
+use radiosity::{Bounds, End, Light, Mask, Ray, Rgb, Side, Source, Work, cast, shoot};
 use virtwall::{Parcel, Problem};
 
 /// Table 1's experiment on one processor, with other values set.
@@ -93,9 +94,22 @@ const PATCH: PatchRecord = PatchRecord {
 };
 
 /// An environment's patches, and the number in it of each polygon of the scene that it has.
-pub struct Records {
+struct Records {
     patches: Vec<PatchRecord>,
     pieces: Vec<u32>,
+}
+
+/// What the program keeps: its records, and the masks sent on, which take each other's places.
+struct Memory {
+    records: Vec<Records>,
+    sent: Vec<Vec<u64>>,
+    copied: usize,
+}
+
+/// A source that waits, and its mask's words.
+struct Queued<'a> {
+    parcel: &'a Parcel,
+    words: Vec<u64>,
 }
 
 /// Carry out shots, the first `uncounted` of them for the caches alone.
@@ -105,47 +119,97 @@ pub fn carry_out(problem: &Problem, shots: &[Parcel], uncounted: usize) -> f64 {
         patches: vec![PATCH; environment.patches.len()],
         pieces: polygons.clone().map(|p| environment.piece(p).unwrap_or(0)).collect(),
     });
-    let mut records: Vec<Records> = records.collect();
-    let (first, others) = shots.split_at(uncounted);
-    for parcel in first {
-        shoot_and_update(problem, parcel, &mut records);
+    let records: Vec<Records> = records.collect();
+    let none = Mask::none(problem.hemisphere.pixels()).words().to_vec();
+    let mut memory = Memory { sent: vec![none; records.len()], records, copied: 0 };
+    let queued = shots.iter().map(|parcel| Queued { parcel, words: parcel.mask.words().to_vec() });
+    let mut queued: Vec<Queued<'_>> = queued.collect();
+    let (first, others) = queued.split_at_mut(uncounted);
+    for source in first {
+        shoot_and_update(problem, source, &mut memory);
     }
-    counted(problem, others, &mut records)
+    counted(problem, others, &mut memory)
 }
 
 /// What valgrind counts.
 #[inline(never)]
-pub fn counted(problem: &Problem, shots: &[Parcel], records: &mut [Records]) -> f64 {
-    shots.iter().map(|parcel| shoot_and_update(problem, parcel, records)).sum()
+fn counted(problem: &Problem, queued: &mut [Queued<'_>], memory: &mut Memory) -> f64 {
+    queued.iter_mut().map(|source| shoot_and_update(problem, source, memory)).sum()
 }
 
 /// Shoot a source, make the masks for the neighbours, update all patches, and look for the greatest.
-fn shoot_and_update(problem: &Problem, parcel: &Parcel, records: &mut [Records]) -> f64 {
-    let Parcel { environment, source, mask, .. } = parcel;
-    let Records { patches, pieces } = &mut records[*environment as usize];
-    let environment = &problem.environments[*environment as usize];
-    let [tangent, bitangent, normal] = problem.hemisphere.frame(source.centre, source.normal);
-    let none = |side| environment.has_neighbour(side).then(|| Mask::none(mask.pixels()));
-    let mut copies = Side::ALL.map(none);
+fn shoot_and_update(problem: &Problem, queued: &mut Queued<'_>, memory: &mut Memory) -> f64 {
+    let Queued { parcel, words } = queued;
+    let Parcel { environment: number, source, .. } = parcel;
+    let environment = &problem.environments[*number as usize];
+    let frame = problem.hemisphere.frame(source.centre, source.normal);
+    let Records { patches, pieces } = &mut memory.records[*number as usize];
     let mut work = Work::NONE;
-    for pixel in mask.ones() {
-        let d = problem.hemisphere.directions[pixel as usize];
-        let ray = Ray::new(source.centre, tangent * d.x + bitangent * d.y + normal * d.z);
-        match cast(&problem.space, environment, &ray, source.polygon, &mut work) {
-            End::Hit { polygon, distance } => {
-                let piece = pieces[polygon as usize];
-                if let Some(patch) = environment.patch_of(piece, ray.at(distance)) {
-                    patches[patch as usize].form_factor += 1.0;
+    for (index, word) in words.iter_mut().enumerate() {
+        let mut rest = *word;
+        while rest != 0 {
+            let pixel = index * 64 + rest.trailing_zeros() as usize;
+            let ray = ray(problem, source, &frame, pixel);
+            let goes_on = match cast(&problem.space, environment, &ray, source.polygon, &mut work) {
+                End::Hit { polygon, distance } => {
+                    let piece = pieces[polygon as usize];
+                    if let Some(patch) = environment.patch_of(piece, ray.at(distance)) {
+                        patches[patch as usize].form_factor += 1.0;
+                    }
+                    false
                 }
+                End::Leaves(side) => environment.has_neighbour(side),
+            };
+            if !goes_on {
+                *word &= !(1 << (pixel % 64));
             }
-            End::Leaves(side) => {
-                copies[side.index()].iter_mut().for_each(|copy| copy.set(pixel));
+            rest &= rest - 1;
+        }
+    }
+    std::hint::black_box(work);
+    copy_for_neighbours(problem, queued, &frame, memory);
+    let patches = &mut memory.records[*number as usize].patches;
+    update(patches, source);
+    patches.iter().map(|patch| patch.energy).fold(0.0, f64::max)
+}
+
+fn ray(problem: &Problem, source: &Source, frame: &[DVec3; 3], pixel: usize) -> Ray {
+    let ([tangent, bitangent, normal], d) = (frame, problem.hemisphere.directions[pixel]);
+    Ray::new(source.centre, tangent * d.x + bitangent * d.y + normal * d.z)
+}
+
+/// For each neighbour a copy of the mask, in which the pixels stay true whose rays hit the plane between.
+fn copy_for_neighbours(
+    problem: &Problem,
+    Queued { parcel, words }: &Queued<'_>,
+    frame: &[DVec3; 3],
+    memory: &mut Memory,
+) {
+    let Parcel { environment, source, .. } = parcel;
+    let environment = &problem.environments[*environment as usize];
+    let Bounds { min, max } = problem.space.grid.bounds(&environment.block);
+    for side in Side::ALL.into_iter().filter(|&side| environment.has_neighbour(side)) {
+        memory.copied += 1;
+        let place = memory.copied % memory.sent.len();
+        let copy = &mut memory.sent[place];
+        copy.copy_from_slice(words);
+        let (axis, plane) = (side.axis, if side.upper { max } else { min });
+        let (b, c) = ((axis + 1) % 3, (axis + 2) % 3);
+        for (index, word) in copy.iter_mut().enumerate() {
+            let mut rest = *word;
+            while rest != 0 {
+                let pixel = index * 64 + rest.trailing_zeros() as usize;
+                let ray = ray(problem, source, frame, pixel);
+                let distance = (plane[axis] - ray.origin[axis]) * ray.inverse[axis];
+                let point = ray.at(distance);
+                let within = |axis: usize| min[axis] <= point[axis] && point[axis] < max[axis];
+                if distance <= 0.0 || !within(b) || !within(c) {
+                    *word &= !(1 << (pixel % 64));
+                }
+                rest &= rest - 1;
             }
         }
     }
-    std::hint::black_box((&mut copies, work));
-    update(patches, source);
-    patches.iter().map(|patch| patch.energy).fold(0.0, f64::max)
 }
 
 /// All patches, each with its form factor, which is cleared.

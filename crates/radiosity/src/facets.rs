@@ -89,8 +89,20 @@ impl Facets {
         let t = self.meets_plane(facet, ray, limit)?;
         let f = self.facet(facet);
         let point = ray.at(t);
-        let (p, q) = (point[f.kept.0], point[f.kept.1]);
-        self.edges(f).iter().all(|e| e.a * p + e.b * q + e.c >= -self.tolerance).then_some(t)
+        self.edges(f).iter().all(|edge| self.within(f, edge, point)).then_some(t)
+    }
+
+    /// How many edges of a facet are looked at, up to one that has a point of its plane outside.
+    pub(crate) fn edges_looked_at(&self, facet: u32, point: DVec3) -> u32 {
+        let f = self.facet(facet);
+        let inside = self.edges(f).iter().take_while(|edge| self.within(f, edge, point)).count();
+        f.edges.min(inside as u32 + 1)
+    }
+
+    #[inline(always)]
+    fn within(&self, facet: &Facet, edge: &Edge, point: DVec3) -> bool {
+        let (p, q) = (point[facet.kept.0], point[facet.kept.1]);
+        edge.a * p + edge.b * q + edge.c >= -self.tolerance
     }
 
     /// The same of the facet's plane.

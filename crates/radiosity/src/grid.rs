@@ -120,6 +120,11 @@ impl Grid {
         grid
     }
 
+    /// Number of planes across each axis.
+    pub fn plane_counts(&self) -> [usize; 3] {
+        self.planes.each_ref().map(Vec::len)
+    }
+
     /// Number of cells on each axis.
     pub fn cells(&self) -> [u32; 3] {
         std::array::from_fn(|axis| self.planes[axis].len() as u32 - 1)
@@ -329,7 +334,7 @@ impl<'a> Passage<'a> {
 
     /// The axis of the next crossing; of equal distances the lower axis.
     #[inline]
-    fn next_axis(&self) -> usize {
+    pub(crate) fn next_axis(&self) -> usize {
         let [x, y, z] = self.next;
         if x <= y && x <= z {
             0

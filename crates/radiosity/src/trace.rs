@@ -1,6 +1,7 @@
 //! What a shot touches in memory, record by record: a cache wants to know more than counts.
 
 use crate::environment::LocalEnvironment;
+use crate::grid::Side;
 use crate::hemisphere::Hemisphere;
 use crate::mask::Mask;
 use crate::ray::Ray;
@@ -21,8 +22,20 @@ pub enum Record {
     },
     /// The plane of a polygon.
     Plane(u32),
-    /// The edges of a polygon whose plane the ray meets in this cell.
-    Edges(u32),
+    /// A plane of the grid, whose distance along the ray is computed.
+    Crossing {
+        /// Across which axis it lies.
+        axis: usize,
+        /// Its number there.
+        plane: u32,
+    },
+    /// The edges of a polygon whose plane the ray meets in this cell, up to the one that it passes outside.
+    Edges {
+        /// The polygon.
+        polygon: u32,
+        /// How many.
+        edges: u32,
+    },
     /// What finds the patch that a ray hits, and the patch.
     Hit {
         /// Its polygon.
@@ -30,6 +43,10 @@ pub enum Record {
         /// Its number in its environment.
         patch: u32,
     },
+    /// The mask, copied for a neighbour (§4.2.3).
+    Copy,
+    /// The direction of a pixel still true, and its bit in that copy: does it hit the neighbour's plane?
+    PlaneTest(u32),
 }
 
 /// Tell `touch` of every record, in the order in which [`shoot_plainly`](crate::shoot_plainly) comes by.
@@ -43,27 +60,55 @@ pub fn trace(
 ) {
     let [tangent, bitangent, normal] = hemisphere.frame(source.centre, source.normal);
     let start = space.grid.cell_of(source.centre);
+    let mut left = Vec::new();
     for pixel in mask.ones() {
         touch(Record::Direction(pixel));
         let d = hemisphere.directions[pixel as usize];
         let ray = Ray::new(source.centre, tangent * d.x + bitangent * d.y + normal * d.z);
-        let Some(mut passage) = space.grid.enter(&environment.block, &ray, start) else { continue };
-        loop {
-            let (place, listed) = (space.grid.index(passage.cell) as u32, passage.polygons());
-            touch(Record::Cell { place, polygons: listed.len() as u32 });
-            let others = listed.iter().copied().filter(|&polygon| polygon != source.polygon);
-            if let Some((polygon, distance)) =
-                nearest_hit(space, others, &ray, passage.exit(), &mut touch)
-            {
-                if let Some(patch) = environment.patch_at(polygon, ray.at(distance)) {
-                    touch(Record::Hit { polygon, patch });
-                }
-                break;
-            }
-            if passage.step().is_err() {
-                break;
-            }
+        if let Some(side) = trace_ray(space, environment, &ray, (source, start), &mut touch)
+            && environment.has_neighbour(side)
+        {
+            left.push(pixel);
         }
+    }
+    for _ in Side::ALL.iter().filter(|&&side| environment.has_neighbour(side)) {
+        touch(Record::Copy);
+        left.iter().for_each(|&pixel| touch(Record::PlaneTest(pixel)));
+    }
+}
+
+/// Follow a ray from a source in a cell; the side by which it leaves, if it hits nothing.
+fn trace_ray(
+    space: &Space,
+    environment: &LocalEnvironment,
+    ray: &Ray,
+    (source, start): (&Source, [u32; 3]),
+    touch: &mut impl FnMut(Record),
+) -> Option<Side> {
+    let Space { grid, .. } = space;
+    let Some(mut passage) = grid.enter(&environment.block, ray, start) else {
+        return Some(grid.side_towards(&environment.block, ray));
+    };
+    let ahead = |cell: [u32; 3], axis: usize| {
+        let plane = cell[axis] + u32::from(ray.direction[axis] > 0.0);
+        Record::Crossing { axis, plane }
+    };
+    (0..3).for_each(|axis| touch(ahead(passage.cell, axis)));
+    loop {
+        let (place, listed) = (grid.index(passage.cell) as u32, passage.polygons());
+        touch(Record::Cell { place, polygons: listed.len() as u32 });
+        let others = listed.iter().copied().filter(|&polygon| polygon != source.polygon);
+        if let Some((polygon, distance)) = nearest_hit(space, others, ray, passage.exit(), touch) {
+            if let Some(patch) = environment.patch_at(polygon, ray.at(distance)) {
+                touch(Record::Hit { polygon, patch });
+            }
+            return None;
+        }
+        let axis = passage.next_axis();
+        if let Err(side) = passage.step() {
+            return Some(side);
+        }
+        touch(ahead(passage.cell, axis));
     }
 }
 
@@ -80,10 +125,9 @@ fn nearest_hit(
     for polygon in polygons {
         touch(Record::Plane(polygon));
         let limit = nearest.map_or(exit, |(_, distance)| distance);
-        if space.facets.meets_plane(polygon, ray, limit).is_none() {
-            continue;
-        }
-        touch(Record::Edges(polygon));
+        let Some(distance) = space.facets.meets_plane(polygon, ray, limit) else { continue };
+        let edges = space.facets.edges_looked_at(polygon, ray.at(distance));
+        touch(Record::Edges { polygon, edges });
         if let Some(distance) = space.facets.hit(polygon, ray, limit) {
             nearest = Some((polygon, distance));
         }

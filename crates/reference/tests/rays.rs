@@ -4,13 +4,9 @@
 
 mod common;
 
-use std::f64::consts::TAU;
-
-use common::{quad, room, scene, whole};
+use common::{closed_forms, quad, room, scene, whole};
 use radiosity::glam::DVec3;
-use radiosity::{
-    Face, Hemisphere, HemisphereKind, LocalEnvironment, Mask, Rgb, Source, Space, shoot,
-};
+use radiosity::{Hemisphere, HemisphereKind, LocalEnvironment, Mask, Rgb, Source, Space, shoot};
 use reference::{ObjectRays, Objects, Pair, Surface, closed_form, element_to_polygon};
 
 /// Sizes of the hemisphere; the default is 176².
@@ -113,37 +109,6 @@ fn split_sources_misdirect_less() {
     assert!(all[0] > 3.0 * all[1] && all[1] > all[2] && all[2] <= 3e-3, "{all:?}");
 }
 
-/// From object 0, one polygon, to object 1, one polygon: what has a closed form, and the value.
-fn closed_forms() -> Vec<(&'static str, Vec<Face>, f64)> {
-    let floor = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
-    let and = |points: [[f64; 3]; 4]| vec![quad(floor, 0), quad(points, 1)];
-    let opposed = |z: f64| and([[0.0, 0.0, z], [0.0, 1.0, z], [1.0, 1.0, z], [1.0, 0.0, z]]);
-    let wall = |x: f64| and([[x, 0.0, 0.0], [x, 1.0, 0.0], [x, 1.0, 1.0], [x, 0.0, 1.0]]);
-    let (unit, next) = ([0.0, 1.0], [1.0, 2.0]);
-    let mut obstructed = opposed(1.0);
-    let (o, h) = (0.0, 0.5);
-    obstructed.push(quad([[o, o, h], [h, o, h], [h, h, h], [o, h, h]], 2));
-    let disc = |z: f64, turn: f64| -> Vec<DVec3> {
-        let angle = |i: u32| turn * TAU * f64::from(i) / 256.0;
-        (0..256).map(|i| DVec3::new(angle(i).cos(), angle(i).sin(), z)).collect()
-    };
-    let discs = [(0, disc(0.0, 1.0)), (1, disc(1.0, -1.0))];
-    let discs = discs.map(|(object, points)| Face { points, material: 0, object });
-    vec![
-        ("opposed", opposed(1.0), closed_form::opposed_rectangles(1.0, 1.0, 1.0)),
-        ("close", opposed(0.1), closed_form::opposed_rectangles(1.0, 1.0, 0.1)),
-        (
-            "aside",
-            and([[1.0, 0.0, 1.0], [1.0, 1.0, 1.0], [2.0, 1.0, 1.0], [2.0, 0.0, 1.0]]),
-            closed_form::parallel_rectangles([unit, unit], [next, unit], 1.0),
-        ),
-        ("adjacent", wall(0.0), closed_form::adjacent_rectangles(1.0, 1.0, 1.0)),
-        ("apart", wall(-1.0), closed_form::perpendicular_rectangles([next, unit], [unit, unit])),
-        ("discs", discs.to_vec(), closed_form::coaxial_discs(1.0, 1.0, 1.0)),
-        ("obstructed", obstructed, 0.149_868_671_8),
-    ]
-}
-
 /// From sixty-four points each, root mean square: the error of a lattice of N points over a region
 /// with an edge falls as N^−3/4. So many points fix a fitted order to 0.025.
 #[test]
@@ -176,6 +141,49 @@ fn every_closed_form_is_come_to() {
     assert!(orders.iter().all(|&(_, order)| order > 0.75 - 2.0 * 0.025), "{orders:?}");
     let mean = orders.iter().map(|&(_, order)| order).sum::<f64>() / orders.len() as f64;
     assert!(mean >= 0.75, "{mean} {orders:?}");
+}
+
+/// From sixty-four elements each to rectangles of sixty-four shapes that have a closed form: as above.
+#[test]
+fn every_closed_form_of_an_element_is_come_to() {
+    let side = |i: u32, step: f64| 0.3 + 1.4 * (0.5 + step * f64::from(i)).fract();
+    let parallel = |i: u32| {
+        let [a, b, c] = [0.754_877, 0.569_840, 0.366_025].map(|step| side(i, step));
+        let target = [[0.0, 0.0, c], [0.0, b, c], [a, b, c], [a, 0.0, c]];
+        (target, closed_form::element_to_parallel_rectangle(a, b, c))
+    };
+    let perpendicular = |i: u32| {
+        let [a, b, c] = [0.754_877, 0.569_840, 0.366_025].map(|step| side(i, step));
+        let target = [[c, 0.0, 0.0], [c, 0.0, a], [c, b, a], [c, b, 0.0]];
+        (target, closed_form::element_to_perpendicular_rectangle(a, b, c))
+    };
+    for (name, of) in
+        [("parallel", &parallel as &dyn Fn(u32) -> _), ("perpendicular", &perpendicular)]
+    {
+        let element = |shift: f64| {
+            let at = |x: f64, y: f64| [x + shift, y, 0.0];
+            quad([at(-0.1, -0.1), at(0.1, -0.1), at(0.1, 0.1), at(-0.1, 0.1)], 0)
+        };
+        let cases: Vec<_> = (0..64)
+            .map(|i| {
+                let (target, exact) = of(i);
+                let (space, environment) =
+                    whole(scene(&[element(0.0), quad(target, 1)]), f64::INFINITY);
+                let origin = -space.scene.origin;
+                (space, environment, origin, exact)
+            })
+            .collect();
+        let errors = SIDES.map(|side| {
+            let hemisphere = hemisphere(side);
+            let squares = cases.iter().map(|(space, environment, origin, exact)| {
+                let found = by_rays(space, environment, &hemisphere, (0, *origin));
+                (found[1] - exact).powi(2)
+            });
+            (squares.sum::<f64>() / 64.0).sqrt()
+        });
+        assert!(order(errors) > 0.75 - 2.0 * 0.025, "{name}: {} {errors:?}", order(errors));
+        assert!(errors[5] < 2e-4, "{name}: {errors:?}");
+    }
 }
 
 /// Rays from points all over an object find the form factor, and know how far off they are.

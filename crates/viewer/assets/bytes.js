@@ -1,8 +1,14 @@
 // Data blocks: base64, deflated columns. The writer is viewer/src/columns.rs.
 
-/** The columns of the block that lies in the page's element of this id. */
+/** The columns of the block that lies in the page's element of this id, or beside a page that is served. */
 async function unpack(id) {
-  const text = atob(document.getElementById(id).textContent);
+  const element = document.getElementById(id);
+  return inflate(element ? element.textContent : await (await fetch(id)).text());
+}
+
+/** The columns of a block. */
+async function inflate(block) {
+  const text = atob(block);
   const packed = new Uint8Array(text.length);
   for (let i = 0; i < text.length; i++) packed[i] = text.charCodeAt(i);
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));

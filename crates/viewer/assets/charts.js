@@ -13,6 +13,7 @@ class Charts {
     Object.assign(this, { state, viewer, courses: new Map() });
     state.onChange((names) => {
       if (names.has("run")) this.redraw();
+      else if (names.has("grown")) this.drawEnergy();
       if (names.has("time")) this.moveCursors();
       if (names.has("light")) this.tellBalance();
     });
@@ -22,8 +23,9 @@ class Charts {
     for (const id of ["energy", "quality"]) byId(id).addEventListener("click", (event) => this.click(event));
   }
 
-  /** A run's course, computed once. */
+  /** A run's course, computed once; a run under way keeps it itself. */
   course(run) {
+    if (run.course) return run.course;
     if (!this.courses.has(run.index)) this.courses.set(run.index, course(run, 400));
     return this.courses.get(run.index);
   }
@@ -32,6 +34,7 @@ class Charts {
     FRAME.width = Math.max(280, byId("energy").clientWidth);
     this.drawEnergy();
     const { run } = this.state;
+    if (run.course) return;
     this.drawQuality([run]);
     // Its siblings are read when the page has nothing else to do.
     this.viewer.siblings(run).then((runs) => {

@@ -20,6 +20,7 @@ class LightPanel {
     try {
       if (names.has("run")) this.open();
       if (names.has("choice")) this.look();
+      if (names.has("grown")) this.middle = middleGrey(this.state.run.scene, this.state.light.radiosity);
       if (names.has("light")) this.repaint();
       else if (names.has("choice")) this.redraw();
     } catch (error) {
@@ -31,7 +32,7 @@ class LightPanel {
   /** Another run; its scene may be that of the last one. */
   open() {
     const { run } = this.state;
-    if (this.picture?.scene !== run.scene) {
+    if (this.picture?.scene.corners !== run.scene.corners) {
       if (this.picture) this.replaceCanvas();
       this.picture = new Picture(this.canvas, run.scene);
       this.camera = new Camera(run.scene);

@@ -161,14 +161,3 @@ class Nodes {
 }
 
 const count = (number, name) => `${number.toLocaleString("en")} ${name}${number === 1 ? "" : "s"}`;
-
-const viewerIndex = JSON.parse(byId("viewer-index").textContent);
-byId("viewer").hidden = false;
-byId("sampled").textContent = viewerIndex.note;
-if (viewerIndex.runs.length) {
-  new Viewer(viewerIndex).open(viewerIndex.first).catch((error) => {
-    byId("status").textContent = `The recorded runs cannot be shown here: ${error.message}. The tables below are whole.`;
-  });
-} else {
-  document.querySelectorAll("#viewer > :not(h2, #sampled)").forEach((part) => part.remove());
-}

@@ -7,7 +7,7 @@ class Mesh {
     this.state = state;
     this.canvas = byId("mesh");
     state.onChange((names) => {
-      if (["run", "time", "choice"].some((name) => names.has(name))) this.redraw();
+      if (["run", "time", "choice", "grown"].some((name) => names.has(name))) this.redraw();
     });
     this.canvas.addEventListener("click", (event) => this.click(event));
     new ResizeObserver(() => this.redraw()).observe(this.canvas);

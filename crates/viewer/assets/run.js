@@ -17,12 +17,15 @@ const [SOURCE, TOKEN] = [0, 5];
 
 class Run {
   static async load(index, scene) {
-    return new Run(index, scene, await unpack(index.block));
+    return new Run(index, scene).read(await unpack(index.block));
   }
 
-  constructor(index, scene, columns) {
+  constructor(index, scene) {
     this.index = index;
     this.scene = scene;
+  }
+
+  read(columns) {
     this.owners = columns.ints();
     this.spans = new Spans(columns);
     this.nodes = this.spans.starts.length - 1;
@@ -31,8 +34,9 @@ class Run {
     this.critical = Array.from(node, (n, i) => ({
       node: n, from: from[i] / 1e9, to: (from[i] + span[i]) / 1e9, doing: doing[i],
     }));
-    this.end = index.time_s;
+    this.end = this.index.time_s;
     this.orderShots();
+    return this;
   }
 
   readMessages(columns) {

@@ -3,7 +3,7 @@
 class Scene {
   static async load(index) {
     const scene = new Scene(index, await unpack(index.block));
-    scene.shots = new Shots(await unpack(index.shots));
+    scene.shots = index.shots ? new Shots(await unpack(index.shots)) : null;
     // The answer that runs are held against, W/m², three colours a patch, if there is one.
     scene.reference = index.reference ? (await unpack(index.reference)).floats() : null;
     return scene;

@@ -22,7 +22,7 @@ class State {
     const light = new Light(run);
     light.goTo(run.end);
     const fields = { run, light, time: run.end, window: [0, run.end] };
-    const same = this.run?.scene === run.scene && this.choice.kind !== "processor";
+    const same = this.run?.scene.corners === run.scene.corners && this.choice.kind !== "processor";
     this.set(same ? fields : { ...fields, choice: { kind: "scene" } });
   }
 

@@ -12,7 +12,7 @@ class Timeline {
     [this.width, this.lane] = [1, 1];
     state.onChange((names) => {
       if (names.has("time") && !names.has("window")) this.follow();
-      if (["window", "choice", "run"].some((name) => names.has(name))) this.redraw();
+      if (["window", "choice", "run", "grown"].some((name) => names.has(name))) this.redraw();
       this.placeCursor();
     });
     for (const id of ["critical", "arrows"]) byId(id).addEventListener("input", () => this.redraw());

@@ -96,7 +96,7 @@ impl<'a> Data<'a> {
             "scene": scene,
             "processors": told.processors(),
             "time_s": told.seconds(),
-            "machine": places(reel),
+            "machine": places(reel.machine, told.processors()),
             "block": self.add(format!("run-{number}"), columns),
         })
     }

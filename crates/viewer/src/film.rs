@@ -33,6 +33,23 @@ pub(crate) struct Beam {
     pub outgoing: f64,
 }
 
+impl Beam {
+    pub fn of(source: &Parcel, shot: &Shot) -> Beam {
+        let hits = shot.hits.iter();
+        Beam {
+            key: ShotKey::of(source),
+            environment: source.environment,
+            source: (source.source.environment, source.source.patch),
+            power: source.source.power,
+            hits: hits.map(|&(patch, form_factor)| (patch, form_factor as f32)).collect(),
+            backs: shot.backs,
+            escaped: shot.escaped,
+            medium: shot.medium,
+            outgoing: shot.outgoing.iter().flatten().map(|out| out.form_factor).sum(),
+        }
+    }
+}
+
 impl Film {
     /// For a run of a problem on so many processors.
     pub fn new(problem: &Problem, processors: usize) -> Film {
@@ -75,21 +92,7 @@ impl Observer for Film {
 
     fn shot(&mut self, now: Time, rank: Rank, source: &Parcel, shot: &Shot, reflected: Rgb) {
         self.recording.shot(now, rank, source, shot, reflected);
-        self.beams[rank].push(Beam {
-            key: ShotKey::of(source),
-            environment: source.environment,
-            source: (source.source.environment, source.source.patch),
-            power: source.source.power,
-            hits: shot
-                .hits
-                .iter()
-                .map(|&(patch, form_factor)| (patch, form_factor as f32))
-                .collect(),
-            backs: shot.backs,
-            escaped: shot.escaped,
-            medium: shot.medium,
-            outgoing: shot.outgoing.iter().flatten().map(|out| out.form_factor).sum(),
-        });
+        self.beams[rank].push(Beam::of(source, shot));
     }
 
     fn queue(&mut self, now: Time, rank: Rank, length: usize) {

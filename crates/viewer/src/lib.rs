@@ -5,12 +5,14 @@
 //! browser, and answers in words what one asks first. Knows nothing of experiment files and tables.
 
 mod answers;
+mod broadcast;
 mod budget;
 mod columns;
 mod critical;
 mod data;
 mod film;
 mod ledger;
+mod live_page;
 mod page;
 mod reel;
 mod run;
@@ -18,6 +20,8 @@ mod scene;
 #[cfg(test)]
 mod tests;
 
+pub use broadcast::{Audience, Broadcast};
 pub use film::Film;
+pub use live_page::{LivePage, LiveRun};
 pub use page::{MARKUP, Recorded, STYLE, program};
 pub use reel::Reel;

@@ -10,7 +10,7 @@ use crate::reel::{Reel, Told};
 pub const MARKUP: &str = include_str!("../assets/viewer.html");
 /// How the viewer looks.
 pub const STYLE: &str = include_str!("../assets/viewer.css");
-/// What it does, in the order in which each part needs those before.
+/// What it does, in the order in which each part needs those before; what starts it comes last.
 const PROGRAM: [&str; 16] = [
     include_str!("../assets/bytes.js"),
     include_str!("../assets/matrices.js"),
@@ -46,9 +46,7 @@ impl Recorded {
     pub fn of(reels: &[Reel], limit: usize) -> Recorded {
         let told: Vec<Told> = reels.iter().map(Told::of).collect();
         let data = Data::of(&told, limit);
-        let (index, blocks) = (embedded(&data.index), data.packed());
-        let index =
-            format!("<script type=\"application/json\" id=\"viewer-index\">{index}</script>\n");
+        let (index, blocks) = (index_element(&data.index), data.packed());
         Recorded { answers: marked(&answers(&told)), data: marked(&(index + &blocks)) }
     }
 
@@ -66,7 +64,18 @@ fn marked(part: &str) -> String {
 
 /// The program, as a script of the page.
 pub fn program() -> String {
-    format!("<script>\n\"use strict\";\n{{\n{}}}\n</script>\n", PROGRAM.concat())
+    script(&[include_str!("../assets/start.js")])
+}
+
+/// The program with what starts it.
+pub(crate) fn script(start: &[&str]) -> String {
+    let [program, start] = [PROGRAM.concat(), start.concat()];
+    format!("<script>\n\"use strict\";\n{{\n{program}{start}}}\n</script>\n")
+}
+
+/// The index of what lies where, as an element of the page.
+pub(crate) fn index_element(index: &Value) -> String {
+    format!("<script type=\"application/json\" id=\"viewer-index\">{}</script>\n", embedded(index))
 }
 
 /// JSON that can stand in a page.

@@ -59,8 +59,8 @@ impl<'a> Told<'a> {
 }
 
 /// Where the ranks of a run stand on its machine, the service node last.
-pub(crate) fn places(reel: &Reel) -> Value {
-    let topology = reel.machine.topology();
+pub(crate) fn places(machine: &Machine, processors: usize) -> Value {
+    let topology = machine.topology();
     let places = topology.places().max(1);
     let (width, height, mesh) = match topology.shape() {
         Shape::Mesh { width, height } => (usize::from(width), usize::from(height), true),
@@ -70,6 +70,6 @@ pub(crate) fn places(reel: &Reel) -> Value {
             (width, places.div_ceil(width), false)
         }
     };
-    let ranks = (0..reel.film.processors()).chain([reel.machine.compute_nodes()]);
+    let ranks = (0..processors).chain([machine.compute_nodes()]);
     json!({ "width": width, "height": height, "mesh": mesh, "places": ranks.collect::<Vec<_>>() })
 }

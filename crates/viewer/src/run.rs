@@ -12,7 +12,7 @@ use crate::film::{Doing, Film};
 use crate::scene::Shots;
 
 /// Nanoseconds: the page's unit of time.
-fn ns(time: Time) -> u64 {
+pub(crate) fn ns(time: Time) -> u64 {
     (time.0 + 500) / 1000
 }
 

@@ -83,28 +83,38 @@ impl<'a> Shots<'a> {
     /// All of them as columns; form factors count in pixels, or 256ths of them where pixels differ or
     /// media dim them.
     pub fn columns(&self, problem: &Problem) -> Columns {
-        let beams = || self.beams.iter();
         let pixels = f64::from(problem.hemisphere.pixels());
         let whole = |hit: &(u32, f32)| {
             let count = f64::from(hit.1) * pixels;
             (count - count.round()).abs() < 0.01
         };
-        let all_whole = beams().flat_map(|beam| &beam.hits).all(whole);
-        let unit = 1.0 / pixels / if all_whole { 1.0 } else { 256.0 };
-        let units = |form_factor: f64| (form_factor / unit).round() as u64;
+        let all_whole = self.beams.iter().flat_map(|beam| &beam.hits).all(whole);
+        let unit = if all_whole { 1.0 / pixels } else { fine_unit(problem) };
         let mut columns = Columns::default();
-        columns.floats([unit]);
-        columns.ints(beams().map(|beam| u64::from(beam.environment)));
-        columns.ints(beams().map(|beam| beam.hits.len() as u64));
-        columns.ints(beams().flat_map(|beam| {
-            let last = [0].into_iter().chain(beam.hits.iter().map(|hit| hit.0));
-            beam.hits.iter().zip(last).map(|(hit, last)| u64::from(hit.0 - last))
-        }));
-        columns.ints(beams().flat_map(|beam| beam.hits.iter().map(|hit| units(f64::from(hit.1)))));
-        columns.ints(beams().map(|beam| units(beam.backs)));
-        columns.ints(beams().map(|beam| units(beam.escaped)));
-        columns.ints(beams().map(|beam| units(beam.medium)));
-        columns.ints(beams().map(|beam| units(beam.outgoing)));
+        beam_columns(&self.beams, unit, &mut columns);
         columns
     }
+}
+
+/// The form factor that counts one where pixels differ.
+pub(crate) fn fine_unit(problem: &Problem) -> f64 {
+    1.0 / f64::from(problem.hemisphere.pixels()) / 256.0
+}
+
+/// What shots hit, with form factors in multiples of `unit`.
+pub(crate) fn beam_columns(shots: &[&Beam], unit: f64, columns: &mut Columns) {
+    let beams = || shots.iter();
+    let units = |form_factor: f64| (form_factor / unit).round() as u64;
+    columns.floats([unit]);
+    columns.ints(beams().map(|beam| u64::from(beam.environment)));
+    columns.ints(beams().map(|beam| beam.hits.len() as u64));
+    columns.ints(beams().flat_map(|beam| {
+        let last = [0].into_iter().chain(beam.hits.iter().map(|hit| hit.0));
+        beam.hits.iter().zip(last).map(|(hit, last)| u64::from(hit.0 - last))
+    }));
+    columns.ints(beams().flat_map(|beam| beam.hits.iter().map(|hit| units(f64::from(hit.1)))));
+    columns.ints(beams().map(|beam| units(beam.backs)));
+    columns.ints(beams().map(|beam| units(beam.escaped)));
+    columns.ints(beams().map(|beam| units(beam.medium)));
+    columns.ints(beams().map(|beam| units(beam.outgoing)));
 }

@@ -82,6 +82,8 @@ pub struct NodeReport {
     pub compute: Duration,
     /// The part of it in which they waited for what was not in the processor's caches.
     pub missing: Duration,
+    /// The part of it in which they waited for translations of addresses.
+    pub translating: Duration,
     /// Time in sending and receiving, waits for room included.
     pub overhead: Duration,
     /// Time spent waiting for pages that were not in memory.
@@ -154,6 +156,11 @@ impl Outcome {
     /// Time in which the kernels of all compute nodes waited for what caches missed.
     pub fn missing(&self) -> Duration {
         self.nodes.iter().map(|node| node.missing).sum()
+    }
+
+    /// Time in which the kernels of all compute nodes waited for translations of addresses.
+    pub fn translating(&self) -> Duration {
+        self.nodes.iter().map(|node| node.translating).sum()
     }
 
     /// Time in kernels as a fraction of all compute nodes' time.

@@ -5,7 +5,8 @@ use std::rc::Rc;
 
 use desim::{Duration, Simulation, Time};
 use multicomputer::{
-    Machine, MachineObserver, Multicomputer, Network, Node, NodeMemory, Rank, Segment, Socket,
+    CacheLevel, Caches, Machine, MachineObserver, Multicomputer, Network, Node, NodeMemory, Rank,
+    Segment, Socket,
 };
 use radiosity::{Operation, Work};
 
@@ -57,10 +58,13 @@ impl SimulatedProcess {
         self.observe(|to| to.memory(self.now(), self.rank(), self.node.bytes_kept()));
     }
 
-    /// Time that it has waited for what its caches missed.
-    fn missing(&self) -> Duration {
-        let seconds = self.storage.as_ref().map_or(0.0, |storage| storage.borrow().time());
-        Duration::from_seconds_f64(seconds)
+    /// Time that it has waited for what its caches missed, and for translations of addresses.
+    fn missing(&self) -> [Duration; 2] {
+        let seconds = self.storage.as_ref().map_or([0.0; 2], |storage| {
+            let storage = storage.borrow();
+            [storage.caches().time(), storage.caches().translating_time()]
+        });
+        seconds.map(Duration::from_seconds_f64)
     }
 }
 
@@ -79,7 +83,8 @@ impl Process for SimulatedProcess {
         if let Some(storage) = &self.storage {
             let before = self.missing();
             storage.borrow_mut().shoot(source);
-            self.node.compute(self.missing() - before).await;
+            let after = self.missing();
+            self.node.compute((after[0] - before[0]) + (after[1] - before[1])).await;
         }
     }
 
@@ -178,7 +183,11 @@ pub fn simulate_observed(
     let handle = simulation.handle();
     let multicomputer = Multicomputer::with_network(&handle, machine, run.processors, network)?;
     let caches = Some(&machine.processor.caches).filter(|caches| !caches.is_empty());
-    let storage = |caches| RefCell::new(Storage::new(&run.problem, Layout::PLAIN_C, caches));
+    let translations = machine.processor.translations.as_ref();
+    let storage = |levels: &[CacheLevel]| {
+        let caches = Caches::new(levels, translations);
+        RefCell::new(Storage::new(&run.problem, Layout::PLAIN_C, caches))
+    };
     let interpreter = observer.map(|observer| {
         let interpreter = Rc::new(RefCell::new(Interpreter::new(observer, run.processors + 1)));
         let observer: Rc<RefCell<dyn MachineObserver<Vec<u8>>>> = interpreter.clone();
@@ -220,7 +229,8 @@ pub fn simulate_observed(
     let accounts = multicomputer.accounts();
     let reports = accounts.iter().zip(missing).map(|(account, missing)| NodeReport {
         compute: account.compute,
-        missing,
+        missing: missing[0],
+        translating: missing[1],
         overhead: account.overhead(),
         paging: account.paging,
         memory_high_water: account.memory_high_water,

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use multicomputer::{CacheLevel, Caches};
-use radiosity::{Block, Record, Side, trace};
+use multicomputer::Caches;
+use radiosity::{Block, Hemisphere, Mask, Record, trace};
 
 use crate::message::Parcel;
 use crate::problem::Problem;
@@ -18,18 +18,23 @@ pub struct Layout {
     pub cell: [u64; 2],
     /// A polygon in a cell's list.
     pub entry: u64,
-    /// A polygon's plane.
-    pub plane: [u64; 2],
-    /// A polygon's edges.
+    /// The position of a plane of the grid.
+    pub crossing: u64,
+    /// A polygon's plane, what each test touches of it, and what one whose plane is met.
+    pub plane: [u64; 3],
+    /// A polygon's edges, and one of them.
     pub edges: [u64; 2],
+    /// A polygon's number among those of its environment, if they are all kept together.
+    pub number: u64,
     /// The axes of a polygon's quad-tree.
     pub axes: [u64; 2],
     /// A slot of the quad-tree.
     pub slot: u64,
     /// A patch, what an update touches of it, and its energy and form factor.
     pub patch: [u64; 3],
-    /// What each ray, each cell and each polygon touches of frames and variables.
-    pub frames: [u64; 3],
+    /// What each ray, each cell and each polygon touches of frames, of constants, and of what says where
+    /// the arrays are: three places.
+    pub scalars: [[u64; 3]; 3],
     /// Between an array and the next: an allocator's own.
     pub gap: u64,
     /// Whether each environment keeps its cells and polygons by itself, as it does on a machine without
@@ -42,18 +47,24 @@ impl Layout {
     ///
     /// Choice C17: the paper's is unpublished. These are the records whose sizes
     /// `machines/paragon-gp16.json` gives and whose misses the prices of the Paragon's operations hold: of
-    /// a polygon's 264 B its plane, 2.5 of its corners and its axes, of a patch's 300 B, aligned, its
-    /// form factor, energies, reflectance and area.
+    /// a polygon's 264 B its plane, its edges up to the one that a ray passes outside, and its axes, of a
+    /// patch's 300 B, aligned, its form factor, energies, reflectance and area.
+    ///
+    /// Scalars are measured, once, of the kernel in `plain.rs` as compiled: lines of 32 B of the stack, of
+    /// constants and of headers that more than half of all rays, cells and tests touched while 3,000 rays
+    /// were cast from Cornell's lamp (`valgrind --tool=lackey --trace-mem=yes`).
     pub const PLAIN_C: Layout = Layout {
         direction: 24,
         cell: [8, 8],
         entry: 8,
-        plane: [48, 48],
-        edges: [96, 60],
+        crossing: 8,
+        plane: [48, 48, 48],
+        edges: [96, 24],
+        number: 0,
         axes: [64, 64],
         slot: 4,
         patch: [304, 96, 8],
-        frames: [512, 144, 72],
+        scalars: [[896, 352, 64], [384, 64, 32], [384, 32, 0]],
         gap: 16,
         by_environment: true,
     };
@@ -64,16 +75,18 @@ pub struct Storage {
     problem: Arc<Problem>,
     layout: Layout,
     caches: Caches,
-    frames: u64,
+    scalars: [u64; 3],
     directions: u64,
     masks: u64,
     mask_bytes: u64,
     masks_used: u64,
+    /// The planes of the grid across each axis.
+    crossings: [u64; 3],
     /// Of each cell, by its place in the grid: its address and that of its list.
     cells: Vec<[u64; 2]>,
     polygons: Vec<Polygons>,
-    /// Slots and patches of each environment.
-    patches: Vec<[u64; 2]>,
+    /// Numbers of polygons, slots and patches of each environment.
+    patches: Vec<[u64; 3]>,
 }
 
 /// Where the polygons of an environment, or of all, are.
@@ -100,17 +113,22 @@ impl Room {
 }
 
 impl Storage {
-    /// Everything in its place, the caches empty.
-    pub fn new(problem: &Arc<Problem>, layout: Layout, levels: &[CacheLevel]) -> Storage {
+    /// Everything in its place, before these caches.
+    pub fn new(problem: &Arc<Problem>, layout: Layout, caches: Caches) -> Storage {
         let whole = problem.space.grid.whole();
         let environments = &problem.environments;
         let mask_bytes = u64::from(problem.hemisphere.pixels()).div_ceil(64) * 8;
+        let directions = problem.hemispheres().map(|h| h.directions.len()).sum();
         let mut room = Room { next: 0, gap: layout.gap };
+        let mut scalars = layout.scalars.map(|[ray, ..]| ray).into_iter();
+        let mut scalars = |room: &mut Room| room.take(1, scalars.next().unwrap_or(0));
+        let frames = scalars(&mut room);
         let mut storage = Storage {
             problem: Arc::clone(problem),
-            caches: Caches::new(levels),
-            frames: room.take(1, layout.frames[0]),
-            directions: room.take(problem.hemisphere.directions.len(), layout.direction),
+            caches,
+            scalars: [frames, 0, 0],
+            directions: room.take(directions, layout.direction),
+            crossings: problem.space.grid.plane_counts().map(|n| room.take(n, layout.crossing)),
             masks: room.take(environments.len(), mask_bytes),
             mask_bytes,
             masks_used: 0,
@@ -119,15 +137,21 @@ impl Storage {
             patches: Vec::new(),
             layout,
         };
+        storage.scalars[1] = scalars(&mut room);
         if storage.layout.by_environment {
             environments.iter().for_each(|e| storage.place(e.block, &mut room));
         } else {
             storage.place(whole, &mut room);
         }
+        storage.scalars[2] = scalars(&mut room);
         for environment in environments {
-            let count = environment.patches.len();
-            let bytes = [storage.layout.slot, storage.layout.patch[0]];
-            storage.patches.push(bytes.map(|bytes| room.take(count, bytes)));
+            let Layout { number, slot, patch, .. } = &storage.layout;
+            let patches = environment.patches.len();
+            storage.patches.push([
+                room.take(problem.space.scene.polygons.len(), *number),
+                room.take(patches, *slot),
+                room.take(patches, patch[0]),
+            ]);
         }
         storage
     }
@@ -154,8 +178,8 @@ impl Storage {
             count.saturating_sub(1)
         };
         let numbers = here.into_iter().map(number).collect();
-        let mut take = |[bytes, _]: [u64; 2]| room.take(count as usize, bytes);
-        let [planes, edges, axes] = [layout.plane, layout.edges, layout.axes].map(&mut take);
+        let bytes = [layout.plane[0], layout.edges[0], layout.axes[0]];
+        let [planes, edges, axes] = bytes.map(|bytes| room.take(count as usize, bytes));
         self.polygons.push(Polygons { planes, edges, axes, numbers });
     }
 
@@ -166,14 +190,17 @@ impl Storage {
         let environment = &problem.environments[e];
         let mask = self.next_mask();
         let Parcel { source, mask: pixels, .. } = parcel;
-        trace(&problem.space, environment, &problem.hemisphere, source, pixels, |record| {
-            self.touch(e, mask, record);
+        let hemisphere = problem.rays_of(source, pixels);
+        let (directions, bytes) = (self.directions_of(pixels), pixels.words().len() as u64 * 8);
+        let mut copy = mask;
+        trace(&problem.space, environment, hemisphere, source, pixels, |record| {
+            if record == Record::Copy {
+                copy = self.next_mask();
+                self.caches.touch(mask, bytes);
+                self.caches.touch(copy, bytes);
+            }
+            self.touch(e, [mask, copy, directions], record);
         });
-        for _ in Side::ALL.iter().filter(|&&side| environment.has_neighbour(side)) {
-            let copy = self.next_mask();
-            self.caches.touch(mask, self.mask_bytes);
-            self.caches.touch(copy, self.mask_bytes);
-        }
         self.pass_over_patches(e);
     }
 
@@ -184,41 +211,69 @@ impl Storage {
         place
     }
 
-    /// Touch a record of an environment.
+    /// The table of directions that a mask belongs to: they lie one after the other.
+    fn directions_of(&self, mask: &Mask) -> u64 {
+        let own = self.problem.hemisphere_of(mask).pixels();
+        let hemispheres = self.problem.hemispheres().map(Hemisphere::pixels);
+        let before = hemispheres.take_while(|&pixels| pixels != own);
+        self.directions + before.map(u64::from).sum::<u64>() * self.layout.direction
+    }
+
+    /// Touch a record of an environment, whose mask is shot or copied.
     #[inline]
-    fn touch(&mut self, environment: usize, mask: u64, record: Record) {
+    fn touch(&mut self, environment: usize, places: [u64; 3], record: Record) {
+        let [mask, copy, directions] = places;
         let Storage { layout, caches, .. } = self;
         let polygons = &self.polygons[if layout.by_environment { environment } else { 0 }];
         let mut touch = |array: u64, number: u32, [bytes, touched]: [u64; 2]| {
-            caches.touch(array + u64::from(number) * bytes, touched);
+            if touched > 0 {
+                caches.touch(array + u64::from(number) * bytes, touched);
+            }
         };
+        let scalars = match record {
+            Record::Direction(_) => Some(0),
+            Record::Cell { .. } => Some(1),
+            Record::Plane(_) | Record::PlaneTest(_) => Some(2),
+            _ => None,
+        };
+        for (&place, bytes) in self.scalars.iter().zip(layout.scalars) {
+            scalars.into_iter().for_each(|of| touch(place, 0, [0, bytes[of]]));
+        }
         let place = |polygon: u32| polygons.numbers[polygon as usize];
-        let [ray, cell, polygon] = layout.frames;
         match record {
             Record::Direction(pixel) => {
-                touch(self.frames, 0, [0, ray]);
                 touch(mask, pixel / 64, [8, 8]);
-                touch(self.directions, pixel, [layout.direction; 2]);
+                touch(directions, pixel, [layout.direction; 2]);
+            }
+            Record::Crossing { axis, plane } => {
+                touch(self.crossings[axis], plane, [layout.crossing; 2]);
             }
             Record::Cell { place, polygons } => {
                 let [here, list] = self.cells[place as usize];
-                touch(self.frames, 0, [0, cell]);
                 touch(here, 0, layout.cell);
-                if polygons > 0 {
-                    touch(list, 0, [0, u64::from(polygons) * layout.entry]);
-                }
+                touch(list, 0, [0, u64::from(polygons) * layout.entry]);
             }
             Record::Plane(number) => {
-                touch(self.frames, 0, [0, polygon]);
-                touch(polygons.planes, place(number), layout.plane);
+                let [bytes, tested, _] = layout.plane;
+                touch(polygons.planes, place(number), [bytes, tested]);
             }
-            Record::Edges(polygon) => touch(polygons.edges, place(polygon), layout.edges),
+            Record::Edges { polygon, edges } => {
+                let ([bytes, edge], [plane, _, met]) = (layout.edges, layout.plane);
+                touch(polygons.planes, place(polygon), [plane, met]);
+                touch(polygons.edges, place(polygon), [bytes, u64::from(edges) * edge]);
+            }
             Record::Hit { polygon, patch } => {
-                let ([slots, patches], [bytes, _, energy]) =
+                let ([numbers, slots, patches], [bytes, _, energy]) =
                     (self.patches[environment], layout.patch);
+                touch(numbers, polygon, [layout.number; 2]);
                 touch(polygons.axes, place(polygon), layout.axes);
                 touch(slots, patch, [layout.slot; 2]);
                 touch(patches, patch, [bytes, energy]);
+            }
+            Record::Copy => {}
+            Record::PlaneTest(pixel) => {
+                touch(self.directions, pixel, [layout.direction; 2]);
+                touch(copy, pixel / 64, [8, 8]);
             }
         }
     }
@@ -228,18 +283,13 @@ impl Storage {
         let [bytes, updated, energy] = self.layout.patch;
         let count = self.problem.environments[environment].patches.len() as u64;
         for touched in [updated, energy] {
-            let starts = (0..count).map(|patch| self.patches[environment][1] + patch * bytes);
+            let starts = (0..count).map(|patch| self.patches[environment][2] + patch * bytes);
             starts.for_each(|start| self.caches.touch(start, touched));
         }
     }
 
-    /// Misses of each level so far, the nearest first.
-    pub fn misses(&self) -> Vec<u64> {
-        self.caches.misses().collect()
-    }
-
-    /// Seconds that all misses so far cost.
-    pub fn time(&self) -> f64 {
-        self.caches.time()
+    /// What its caches hold and have missed.
+    pub fn caches(&self) -> &Caches {
+        &self.caches
     }
 }

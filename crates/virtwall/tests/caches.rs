@@ -61,7 +61,7 @@ fn kept_shots_and_processors_do_not_change_what_misses() {
 
 #[test]
 fn a_trace_touches_what_the_slow_kernel_counts() {
-    let problem = problem(two_rooms(), [8, 4, 4], [1, 1, 1], 1_024, 0.5);
+    let problem = problem(two_rooms(), [8, 4, 4], [2, 1, 1], 1_024, 0.5);
     let environment = &problem.environments[0];
     let (space, hemisphere) = (&problem.space, &problem.hemisphere);
     let light = Light::new(space, environment);
@@ -71,17 +71,33 @@ fn a_trace_touches_what_the_slow_kernel_counts() {
         let source = light.source(space, environment, 0, patch);
         let work = shoot_plainly(space, environment, hemisphere, &source, &mask).work;
         let (mut rays, mut cells, mut listed, mut hits) = (0, 0, 0, 0);
+        let (mut crossings, mut words, mut planes) = (0, 0, 0);
         trace(space, environment, hemisphere, &source, &mask, |record| match record {
             Record::Direction(_) => rays += 1,
             Record::Cell { polygons, .. } => {
                 (cells, listed) = (cells + 1, listed + u64::from(polygons));
             }
             Record::Plane(polygon) => assert_ne!(polygon, source.polygon),
-            Record::Edges(_) => tests += 1,
+            Record::Crossing { .. } => crossings += 1,
+            Record::Edges { edges, .. } => {
+                assert!((1..=4).contains(&edges));
+                tests += 1;
+            }
             Record::Hit { .. } => hits += 1,
+            Record::Copy => words += mask.words().len() as u64,
+            Record::PlaneTest(_) => planes += 1,
         });
-        let counted = [Operation::Ray, Operation::CellStep, Operation::PolygonTest];
-        assert_eq!([rays, cells, listed], counted.map(|operation| work.of(operation)));
+        let found = [rays, cells, listed, words, planes];
+        let counted = [
+            Operation::Ray,
+            Operation::CellStep,
+            Operation::PolygonTest,
+            Operation::WordCopied,
+            Operation::PlaneTest,
+        ];
+        assert_eq!(found, counted.map(|operation| work.of(operation)));
+        // Three on entry, one a step from cell to cell.
+        assert_eq!(crossings, 2 * rays + cells);
         assert!(hits <= work.of(Operation::Hit) && hits > 0);
         shots += 1;
     }

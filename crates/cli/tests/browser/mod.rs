@@ -1,5 +1,7 @@
 //! A headless Chromium, driven by its DevTools protocol.
 
+#![allow(dead_code, reason = "each test needs a part of it")]
+
 use std::env;
 use std::fs;
 use std::net::TcpStream;
@@ -66,6 +68,11 @@ impl Browser {
     /// Show a file.
     pub fn open(&mut self, file: &Path) {
         self.call("Page.navigate", &json!({ "url": format!("file://{}", file.display()) }));
+    }
+
+    /// Show what is served at an address.
+    pub fn visit(&mut self, url: &str) {
+        self.call("Page.navigate", &json!({ "url": url }));
     }
 
     /// The value of an expression in the page.

@@ -1,0 +1,12 @@
+// Starts a finished page.
+
+const viewerIndex = JSON.parse(byId("viewer-index").textContent);
+byId("viewer").hidden = false;
+byId("sampled").textContent = viewerIndex.note;
+if (viewerIndex.runs.length) {
+  new Viewer(viewerIndex).open(viewerIndex.first).catch((error) => {
+    byId("status").textContent = `The recorded runs cannot be shown here: ${error.message}. The tables below are whole.`;
+  });
+} else {
+  document.querySelectorAll("#viewer > :not(h2, #sampled)").forEach((part) => part.remove());
+}
