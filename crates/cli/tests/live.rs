@@ -6,7 +6,7 @@ mod browser;
 
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
-use std::net::TcpStream;
+use std::net::{TcpListener, TcpStream};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
@@ -147,4 +147,25 @@ fn viewers_change_nothing() {
     assert_eq!(results(&alone), results(&watched));
     let report = |out: &Path| fs::read_to_string(out.join("report.html")).unwrap();
     assert!(report(&alone) == report(&watched), "the report is another");
+}
+
+#[test]
+fn what_cannot_be_served_is_bad_input() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let taken = TcpListener::bind("127.0.0.1:0").unwrap();
+    let port = format!("--live={}", taken.local_addr().unwrap().port());
+    let cases: [(&[&str], &str); 4] = [
+        (&[&port], "--live: cannot listen at 127.0.0.1:"),
+        (&["--live", "--on", "threads"], "--live: found --on threads"),
+        (&["--live=99999"], "99999"),
+        (&["--live-address", "127.0.0.1"], "--live"),
+    ];
+    for (arguments, complaint) in cases {
+        let output = command(&out, "4 %").args(arguments).output().unwrap();
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {text}");
+        assert!(text.contains(complaint), "{arguments:?}: {text}");
+        assert!(!out.exists(), "{arguments:?}");
+    }
 }
