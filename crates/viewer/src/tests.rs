@@ -9,8 +9,8 @@ use desim::{Duration, Time};
 use multicomputer::Machine;
 use radiosity::{Hemisphere, HemisphereKind, PatchSize};
 use virtwall::{
-    KeptShots, Mapping, Outcome, Problem, ProblemOptions, Rules, Run, Selection, Shooting, Ties,
-    simulate_observed,
+    KeptShots, Mapping, Order, Outcome, Problem, ProblemOptions, Rules, Run, Selection, Shooting,
+    Ties, simulate_observed,
 };
 
 use crate::film::{Doing, Film};
@@ -44,6 +44,7 @@ fn film(problem: &Arc<Problem>, processors: usize) -> (Outcome, Film) {
     let rules = Rules {
         selection: Selection::Energy,
         ties: Ties::ReceivedFirst,
+        order: Order::Best,
         patch_threshold: 0.02,
         wall_threshold: 1e-4,
         energy_threshold: 0.0,
