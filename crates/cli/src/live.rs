@@ -17,7 +17,7 @@ const PATIENCE: Duration = Duration::from_secs(5);
 
 /// Whether and where to serve.
 #[derive(Args)]
-pub struct Arguments {
+pub struct Serving {
     /// Serve a page that shows the runs while they are under way, on this port of 127.0.0.1
     /// [default: one that is free]. It becomes the report when all have ended
     #[arg(long, value_name = "PORT", num_args = 0..=1, require_equals = true)]
@@ -50,7 +50,7 @@ impl Site for Page {
     }
 }
 
-impl Arguments {
+impl Serving {
     /// Whether it is asked for.
     pub fn asked(&self) -> bool {
         self.live.is_some()

@@ -58,6 +58,7 @@ impl Progress {
         if !bar.is_hidden() {
             bar.enable_steady_tick(Duration::from_secs(1));
         }
+        bar.set_prefix(format!("0 of {} runs", plan.runs.len()));
         let lines = !quiet && !std::io::stderr().is_terminal();
         Progress { plan, bar, lines, counts: Mutex::default() }
     }
@@ -81,9 +82,9 @@ impl Progress {
                 counts.finished += 1;
             }
         }
-        // Shots come by the thousand: one in sixteen is enough to be shown.
+        // Shots come by the thousand: one in sixty-four is enough to be shown.
         if let Event::Shot { run } = event
-            && counts.shots.get(&run).is_some_and(|shots| shots % 16 != 0)
+            && counts.shots.get(&run).is_some_and(|shots| shots % 64 != 0)
         {
             return;
         }
@@ -106,18 +107,17 @@ impl Progress {
         let shots: u64 = counts.shots.values().sum();
         let runs = self.plan.runs.len();
         let message = format!("{ended} of {runs} runs");
+        // Nobody knows before something has been done.
+        let left = (self.bar.position() > 0).then(|| HumanDuration(self.bar.eta()));
         let times_up = self.bar.elapsed().as_secs() / BETWEEN_LINES;
         if self.lines && times_up > counts.lines {
             counts.lines = times_up;
-            let [gone, left] = [self.bar.elapsed(), self.bar.eta()].map(HumanDuration);
-            note(&format!("{message}, {shots} shots in this one, {gone} gone, {left} left"));
+            let gone = HumanDuration(self.bar.elapsed());
+            let left = left.as_ref().map_or(String::new(), |left| format!(", {left} left"));
+            note(&format!("{message}, {shots} shots in this one, {gone} gone{left}"));
         }
         self.bar.set_prefix(message);
-        // Nobody knows before something has been done.
-        let left = match self.bar.position() {
-            0 => String::new(),
-            _ => format!(", {:#} left", HumanDuration(self.bar.eta())),
-        };
+        let left = left.map_or(String::new(), |left| format!(", {left:#} left"));
         self.bar.set_message(left + &self.under_way(&counts.pulses));
     }
 

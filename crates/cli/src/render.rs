@@ -7,7 +7,9 @@ use desim::Time;
 use lab::{Light, Stage, Which};
 use multicomputer::quantity::{Dimension, QuantityError, parse};
 use radiosity::glam::DVec3;
-use radiosity::{Camera, Exposure, Mesh, Picture, PictureOptions, Rgb, Shading, Tone, render};
+use radiosity::{
+    Camera, Exposure, LARGEST_PICTURE, Mesh, Picture, PictureOptions, Rgb, Shading, Tone, render,
+};
 
 use crate::exit::Exit;
 
@@ -257,19 +259,18 @@ impl Studio<'_> {
 
 impl View {
     fn camera(&self, scene: &radiosity::Scene) -> Result<Camera, String> {
+        let (width, height) = self.size;
         let default = match self.camera {
-            CameraArgument::Outside => Camera::overview(&scene.bounds),
-            CameraArgument::Inside => Camera::inside(&scene.bounds),
+            CameraArgument::Outside => Camera::overview(&scene.bounds, width, height),
+            CameraArgument::Inside => Camera::inside(&scene.bounds, width, height),
         };
         let local = |place: Option<DVec3>| place.map(|place| place - scene.origin);
-        let (width, height) = self.size;
         let camera = Camera {
             eye: local(self.eye).unwrap_or(default.eye),
             target: local(self.target).unwrap_or(default.target),
             up: self.up.unwrap_or(default.up),
             field_of_view_degrees: self.field_of_view.unwrap_or(default.field_of_view_degrees),
-            width,
-            height,
+            ..default
         };
         if (camera.target - camera.eye).cross(camera.up).length_squared() > 0.0 {
             Ok(camera)
@@ -337,6 +338,11 @@ fn point(text: &str) -> Result<DVec3, String> {
 }
 
 fn size(text: &str) -> Result<(u32, u32), String> {
-    let size = text.split_once('x').and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
-    size.ok_or_else(|| format!("found \"{text}\"; expected pixels, such as 1200x800"))
+    let side = |text: &str| text.parse().ok().filter(|side| (1..=LARGEST_PICTURE).contains(side));
+    let size = text.split_once('x').and_then(|(w, h)| Some((side(w)?, side(h)?)));
+    size.ok_or_else(|| {
+        format!(
+            "found \"{text}\"; expected pixels, 1 to {LARGEST_PICTURE} either way, such as 1200x800"
+        )
+    })
 }

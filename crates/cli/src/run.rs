@@ -63,7 +63,7 @@ pub struct Arguments {
     #[arg(long, value_name = "RUNS", default_value = "auto", value_parser = viewing)]
     viewer: Viewing,
     #[command(flatten)]
-    live: live::Arguments,
+    live: live::Serving,
     /// Print nothing but what went wrong: no progress, no table
     #[arg(long, short)]
     quiet: bool,
@@ -126,6 +126,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         return Err(Exit::bad_input(needs_simulation("--live")));
     }
     let shot_files = arguments.keep_shots.as_deref().map(open_shot_files).transpose()?;
+    let live = arguments.live.start(&plan)?;
     std::fs::create_dir_all(&out)
         .map_err(|error| Exit::bad_input(format!("{place}: no folder for results: {error}")))?;
 
@@ -135,7 +136,6 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     };
     let viewing = arguments.viewer.clone();
     let progress = Arc::new(Progress::new(Arc::clone(&plan), arguments.quiet));
-    let live = arguments.live.start(&plan)?;
     let (fresh, pulse) = (arguments.fresh, progress.shows_pulse());
     let feed = live.as_ref().map(|live| live.feed());
     let options = Options { threads, fresh, on, memory, shot_files, traces, viewing, feed, pulse };
@@ -149,10 +149,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let results = Results::of(&plan, &endings, on).map_err(Exit::failure)?;
     lab::write_host_times(&out, &endings, clock.seconds(), threads).map_err(Exit::failure)?;
     results.write(&out).map_err(Exit::failure)?;
-    let networks = lab::networks_text(&plan, &endings);
-    let mut output = format!("{}\n{}\n{networks}", plan.title, results.text());
-    output.extend(plan.settings_found().iter().map(|found| format!("{found}\n")));
-    output += &shots(&endings);
+    let mut output = output(&plan, &results, &endings);
     if let Some(trouble) = options.shot_files.and_then(|files| files.trouble()) {
         output += &format!("Shots could not be kept in {trouble}.\n");
     }
@@ -171,6 +168,14 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
             Err(Exit { code: 1, output, message })
         }
     }
+}
+
+/// The results, in words.
+fn output(plan: &Plan, results: &Results, endings: &Endings) -> String {
+    let networks = lab::networks_text(plan, endings);
+    let mut output = format!("{}\n{}\n{networks}", plan.title, results.text());
+    output.extend(plan.settings_found().iter().map(|found| format!("{found}\n")));
+    output + &shots(endings)
 }
 
 fn needs_simulation(argument: &str) -> String {

@@ -6,10 +6,11 @@ use clap::Args;
 use lab::OpenScene;
 use radiosity::{
     Camera, Hemisphere, HemisphereKind, LocalEnvironment, PatchSize, Picture, PictureError,
-    PictureOptions, Rgb, Space, render, solve, studio_light,
+    PictureOptions, Rgb, Space, render, solve_watched, studio_light,
 };
 
 use crate::exit::Exit;
+use crate::steps::Steps;
 
 /// A picture needs no more light than this: a tenth of it may still be unshot.
 const UNSHOT: f64 = 0.1;
@@ -97,7 +98,7 @@ fn picture(
     whole: &LocalEnvironment,
     arguments: &Arguments,
 ) -> Result<Picture, PictureError> {
-    let camera = Camera::overview(&open.scene.bounds);
+    let camera = Camera::overview(&open.scene.bounds, 1200, 800);
     let cut_above = arguments.cut_above.map(|height| height - open.scene.origin.z);
     let options = PictureOptions { cut_above, ..PictureOptions::default() };
     if !arguments.solved {
@@ -105,7 +106,10 @@ fn picture(
     }
     let hemisphere = Hemisphere::new(HemisphereKind::Fibonacci, PIXELS, true)
         .expect("4096 is a number of pixels that a Fibonacci disc can have");
-    let (light, _) = solve(space, whole, &hemisphere, UNSHOT, MOST_SHOTS);
+    let steps = Steps::new("% of the light", (100.0 * (1.0 - UNSHOT)) as usize);
+    let watch = |left: f64| steps.at((100.0 * (1.0 - left)) as u64);
+    let (light, _) = solve_watched(space, whole, &hemisphere, UNSHOT, MOST_SHOTS, watch);
+    steps.end();
     let colour = |polygon, point| {
         whole.patch_at(polygon, point).map_or(Rgb::ZERO, |patch| light.radiosity(whole, patch))
     };

@@ -22,6 +22,11 @@ impl Steps {
         self.0.inc(1);
     }
 
+    /// So many are done by now.
+    pub fn at(&self, steps: u64) {
+        self.0.set_position(steps);
+    }
+
     /// So many were done before.
     pub fn skip(&self, steps: u32) {
         self.0.inc(u64::from(steps));

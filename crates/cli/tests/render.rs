@@ -115,7 +115,7 @@ fn what_cannot_be_drawn_is_refused() {
         ("box -o a.png --eye 1,2", "found \"1,2\"; expected three numbers"),
         ("box -o a.png --eye 1,1,1 --target 1,1,1", "nothing between eye and target"),
         ("box -o a.png --size 60", "found \"60\"; expected pixels"),
-        ("box -o a.png --size 0x9", "picture of 0 x 9 pixels; expected 1 to 8192"),
+        ("box -o a.png --size 0x9", "expected pixels, 1 to 8192 either way"),
         ("box -o a.png --exposure 0", "found \"0\"; expected a number above zero"),
         ("box -o a.png --field-of-view 180", "expected degrees, 0.1 to 179"),
         ("box -o nowhere/a.png", "nowhere/a.png"),

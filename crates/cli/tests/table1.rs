@@ -67,6 +67,11 @@ fn it_stands_beside_the_papers() {
         assert_eq!(read(&one), read(&two), "{file} depends on the number of threads");
     }
 
+    // All 24 runs can be looked at, in a page that loads at once.
+    let report = fs::read_to_string(one.join("report.html")).unwrap();
+    assert!(report.len() <= 20_000_000, "report.html has {} bytes", report.len());
+    assert!(report.contains("All that was recorded is here") && report.contains("id=\"run-23\""));
+
     let csv = fs::read_to_string(one.join("runs.csv")).unwrap();
     let committed = fs::read_to_string(root().join("results/table1/runs.csv")).unwrap();
     assert!(csv == committed, "results/table1 is not what the program finds: run the experiment");

@@ -20,7 +20,7 @@ const SIZE: (u32, u32) = (670, 540);
 /// Height of a line's name, and about the width of one of its letters, pixels.
 const LETTER: (u32, u32) = (8, 17);
 /// Above and below the axes, pixels.
-const HEAD: u32 = 56;
+const HEAD: u32 = 68;
 const FOOT: u32 = 62;
 
 /// Okabe and Ito's colours, which colour-blind readers can tell apart.
@@ -186,33 +186,34 @@ fn draw_names(area: &Area, chart: &Chart, drawing: &Drawing) -> Drawn {
     Ok(())
 }
 
-/// What solid and dashed lines and rings mean.
+/// What solid and dashed lines and rings mean, in a row above the axes, where no line can run.
 fn draw_key(area: &Area, chart: &Chart, drawing: &Drawing, ideal: bool, marked: &str) -> Drawn {
-    let (xs, ys) = chart.plotting_area().get_pixel_range();
-    let (x, mut y) = (xs.start + px(18), ys.start + px(16));
-    let across = |from: u32, to: u32, y| [(x + px(from), y), (x + px(to), y)];
-    let name = |name, y| Text::new(name, (x + px(46), y), beside(14, INK));
+    let mut x = chart.plotting_area().get_pixel_range().0.start;
+    let y = px(HEAD - 15);
+    let across = |x: i32, from: u32, to: u32| [(x + px(from), y), (x + px(to), y)];
+    // Names an entry; says where the next one begins.
+    let name = |x: i32, name: &str| -> Result<i32, Box<dyn std::error::Error>> {
+        area.draw(&Text::new(name.to_owned(), (x + px(44), y), beside(14, INK)))?;
+        Ok(x + px(68 + LETTER.0 * name.chars().count() as u32))
+    };
     if drawing.series.iter().any(|series| !series.paper.is_empty()) {
-        area.draw(&PathElement::new(across(0, 36, y), line(GREY, 2)))?;
+        area.draw(&PathElement::new(across(x, 0, 36), line(GREY, 2)))?;
         area.draw(&Circle::new((x + px(18), y), px(4), GREY.filled()))?;
-        area.draw(&name("simulated", y))?;
-        y += px(21);
+        x = name(x, "simulated")?;
         for dash in [0, 10, 20, 30] {
-            area.draw(&PathElement::new(across(dash, dash + 6, y), line(GREY, 1)))?;
+            area.draw(&PathElement::new(across(x, dash, dash + 6), line(GREY, 1)))?;
         }
         area.draw(&Circle::new((x + px(18), y), px(4), WHITE.filled()))?;
         area.draw(&Circle::new((x + px(18), y), px(4), line(GREY, 1)))?;
-        area.draw(&name(drawing.publisher, y))?;
-        y += px(21);
+        x = name(x, drawing.publisher)?;
     }
     if ideal {
-        area.draw(&PathElement::new(across(0, 36, y), line(PALE, 1)))?;
-        area.draw(&name("ideal", y))?;
-        y += px(21);
+        area.draw(&PathElement::new(across(x, 0, 36), line(PALE, 1)))?;
+        x = name(x, "ideal")?;
     }
     if drawing.series.iter().any(|series| !series.marked.is_empty()) {
-        area.draw(&Circle::new((x + px(18), y), px(9), line(INK, 1)))?;
-        area.draw(&name(marked, y))?;
+        area.draw(&Circle::new((x + px(26), y), px(9), line(INK, 1)))?;
+        name(x, marked)?;
     }
     Ok(())
 }

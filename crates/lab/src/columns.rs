@@ -8,6 +8,7 @@ use crate::error_causes;
 use crate::errors;
 use crate::figures::Figures;
 use crate::message_layer;
+use crate::refine;
 use crate::start_up;
 use crate::sweep::Axis;
 use crate::tuned;
@@ -95,6 +96,8 @@ pub struct Also {
     pub accuracy: bool,
     /// That of participating media.
     pub media: bool,
+    /// Those of refined meshes.
+    pub refine: bool,
     /// Those of the processors' caches.
     pub caches: bool,
     /// That of translations of addresses.
@@ -118,13 +121,14 @@ impl Also {
         let caches = OF_CACHES.into_iter().filter(move |_| self.caches);
         let translations = OF_TRANSLATIONS.into_iter().filter(move |_| self.translations);
         let caches = caches.chain(translations);
+        let refine = refine::COLUMNS.into_iter().filter(move |_| self.refine);
         let errors = errors::COLUMNS.into_iter().filter(move |_| self.errors);
         let display = display::COLUMNS.into_iter().filter(move |_| self.display);
         let start_up = start_up::COLUMNS.into_iter().filter(move |_| self.start_up);
         let machine = network.chain(memory).chain(layer).chain(display).chain(start_up);
         let causes = error_causes::COLUMNS.into_iter().filter(move |_| self.causes);
         let accuracy = tuned::COLUMNS.into_iter().filter(move |_| self.accuracy);
-        machine.chain(caches).chain(media).chain(errors).chain(causes).chain(accuracy)
+        machine.chain(caches).chain(media).chain(refine).chain(errors).chain(causes).chain(accuracy)
     }
 }
 

@@ -108,7 +108,7 @@ pub fn problem_on(
     let meshed = parallel::map(cut.environments() as usize, threads, mesh, || ());
     let (environments, seconds): (_, Vec<f64>) = meshed.into_iter().unzip();
     let cpu_s = clock.cpu_seconds() + seconds.iter().sum::<f64>();
-    let problem = cut.with(environments);
+    let problem = cut.with(environments).with_smaller_hemispheres(smaller_hemispheres(settings)?);
     let problem = match settings.mask_bits {
         Some(bits) => problem.with_depth_bits(depth_bits(bits)?),
         None => problem,
@@ -127,27 +127,38 @@ fn cut(scene: &radiosity::Scene, settings: &Settings) -> Result<CutScene, WrongF
         patch_size: PatchSize { reflector, emitter },
         cells: settings.cells.0,
         cut: settings.cut.0,
-        hemisphere: hemisphere(settings)?,
+        hemisphere: hemisphere(settings, settings.pixels)?,
     };
-    CutScene::new(scene.clone(), options).map_err(|error| {
+    let cut = CutScene::new(scene.clone(), options).map_err(|error| {
         let field = match error {
             ProblemError::Cells(_) => "cells",
             ProblemError::Cut { .. } => "cut",
             ProblemError::PatchSize(..) => "patch_size",
         };
         (field, error.to_string())
-    })
+    })?;
+    match settings.refine.wanted() {
+        Some(wanted) => cut.refined(wanted).map_err(|error| ("refine", error.to_string())),
+        None => Ok(cut),
+    }
 }
 
-/// The hemisphere over every source.
-fn hemisphere(settings: &Settings) -> Result<Hemisphere, WrongField> {
+/// Those of dimmer sources, each with a quarter of the pixels of the one before.
+fn smaller_hemispheres(settings: &Settings) -> Result<Vec<Hemisphere>, WrongField> {
+    let least = settings.least_pixels.unwrap_or(settings.pixels).max(1);
+    let smaller = (1..16).map(|quarters| settings.pixels >> (2 * quarters));
+    smaller.take_while(|&pixels| pixels >= least).map(|p| hemisphere(settings, p)).collect()
+}
+
+/// A hemisphere of so many pixels.
+fn hemisphere(settings: &Settings, pixels: u32) -> Result<Hemisphere, WrongField> {
     let kind = match settings.directions {
         fields::Directions::Fibonacci => HemisphereKind::Fibonacci,
         fields::Directions::Hemicube => HemisphereKind::Hemicube,
         fields::Directions::Polar => HemisphereKind::Polar,
         fields::Directions::Concentric => HemisphereKind::Concentric,
     };
-    let hemisphere = Hemisphere::new(kind, settings.pixels, settings.rotated)
+    let hemisphere = Hemisphere::new(kind, pixels, settings.rotated)
         .map_err(|error| ("hemisphere.pixels", error.to_string()))?;
     Ok(if settings.by_place { hemisphere } else { hemisphere.by_axes() })
 }
@@ -261,6 +272,51 @@ pub fn light_at(
         .and_then(|network| virtwall::visit_instants(run, &machine, network, times, visit))
         .map_err(|error| error.to_string())?;
     Ok((light.take(), outcome.time))
+}
+
+/// A run as it would have ended at a threshold.
+pub struct Stopped {
+    /// Virtual seconds.
+    pub time_s: f64,
+    /// The part of the emitted energy that was not shot.
+    pub unshot: f64,
+    /// Radiosity in W/m², by patch, one environment after the other.
+    pub radiosity: Vec<Rgb>,
+    /// What the ambient term would add where all is reflected, W/m².
+    pub ambient: Rgb,
+}
+
+/// A run on one processor as it would end at each of `thresholds`, in falling order, the last of which is
+/// its own.
+///
+/// # Errors
+/// Why the run did not end.
+pub fn stops(
+    run: &Run,
+    point: &Experiment,
+    machine: &Machine,
+    thresholds: &[f64],
+) -> Result<Vec<Stopped>, String> {
+    let machine = changed(machine, point);
+    let stops = Rc::new(RefCell::new(Vec::new()));
+    let visit = {
+        let stops = Rc::clone(&stops);
+        move |instant: Instant| {
+            let energy = &instant.energy;
+            let left = (energy.unshot + energy.in_transit).element_sum();
+            stops.borrow_mut().push(Stopped {
+                time_s: instant.time.as_seconds_f64(),
+                unshot: left / energy.emitted.element_sum().max(f64::MIN_POSITIVE),
+                radiosity: instant.radiosity().flatten().collect(),
+                ambient: instant.ambient(),
+            });
+        }
+    };
+    network::rung(run, &machine, point)
+        .and_then(|rung| Ok(machine.network_on(rung)?))
+        .and_then(|network| virtwall::visit_stops(run, &machine, network, thresholds, visit))
+        .map_err(|error| error.to_string())?;
+    Ok(stops.take())
 }
 
 /// Shots after which a scene counts as solved.

@@ -12,6 +12,7 @@ use crate::display::DisplayFields;
 use crate::interfaces::{Interfaces, VirtualWalls};
 use crate::node_memory::NodeMemoryFields;
 use crate::quantity::{Fraction, Length, Period, Triple};
+use crate::refine::RefineFields;
 use crate::schema;
 use crate::source_split::SplitFields;
 
@@ -92,6 +93,9 @@ pub struct Experiment {
     /// decides how many shots there are.
     #[serde(default)]
     pub emitter_patch_size: Option<Length>,
+    /// Smaller patches where radiosity changes.
+    #[serde(default, skip_serializing_if = "RefineFields::is_none")]
+    pub refine: RefineFields,
     /// The hemisphere of rays over a source.
     #[serde(default)]
     pub hemisphere: Hemisphere,
@@ -197,6 +201,13 @@ pub struct Hemisphere {
     /// and photometry.
     #[schemars(range(min = 1))]
     pub pixels: u32,
+    /// Pixels of the smallest hemisphere, over the dimmest sources. A source with less unshot energy than
+    /// the brightest patch begins with is shot with a quarter of "pixels", a quarter of that and so on,
+    /// as long as none of its rays carries more than those of that patch do. Its mask is as short.
+    /// Default: all sources have all pixels.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1))]
+    pub least_pixels: Option<u32>,
     /// Neighbouring pixels that share a bit of the masks that travel: 1, 2, 4 and so on to 64. All
     /// pixels are cast, messages are shorter, and where pixels of a bit disagree their majority
     /// decides.
@@ -215,6 +226,7 @@ impl Default for Hemisphere {
         Hemisphere {
             directions: Directions::Fibonacci,
             pixels: 30_976,
+            least_pixels: None,
             pixels_a_bit: 1,
             rotated: true,
             by_place: true,

@@ -3,6 +3,7 @@
 use virtwall::{Shooting, SourceSplit};
 
 use crate::experiment::Experiment;
+use crate::refine::MOST_HALVINGS;
 use crate::source_split::SplitFields;
 
 /// The parts that a patch may be cut into along a direction.
@@ -23,6 +24,19 @@ pub fn check(point: &Experiment) -> Result<(), (&'static str, String)> {
     if !(1.0..2.0).contains(&point.overshoot) {
         let message = format!("{}; expected from 1 to less than 2", point.overshoot);
         return Err(("overshoot", message));
+    }
+    if let Some(error) = point.refine.relative_l2.filter(|error| !(*error > 0.0 && *error < 1.0)) {
+        return Err(("refine.relative_l2", format!("{error}; expected more than 0, less than 1")));
+    }
+    if !(1..=MOST_HALVINGS).contains(&point.refine.most_halvings) {
+        let message = format!("{}; expected 1 to {MOST_HALVINGS}", point.refine.most_halvings);
+        return Err(("refine.most_halvings", message));
+    }
+    if let Some(least) = point.hemisphere.least_pixels
+        && !(1..=point.hemisphere.pixels).contains(&least)
+    {
+        let message = format!("{least}; expected 1 to {}, the pixels", point.hemisphere.pixels);
+        return Err(("hemisphere.least_pixels", message));
     }
     let pixels = point.hemisphere.pixels_a_bit;
     if !(pixels.is_power_of_two() && pixels <= 64) {

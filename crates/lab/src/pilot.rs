@@ -1,16 +1,16 @@
 //! Pilot runs: what a setting of the knobs costs, and the light that it finds.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::fmt;
 use std::rc::Rc;
 use std::sync::Arc;
 
 use multicomputer::Machine;
-use radiosity::Rgb;
-use reference::{Difference, Overlaps, Patches};
+use radiosity::{LocalEnvironment, PatchSize, Rgb, Space};
+use reference::{Difference, Overlaps, Patches, Testimony, Witnesses};
 use virtwall::{KeptShots, Problem};
 
-use crate::engine::{self, On};
+use crate::engine::{self, Stopped};
 use crate::experiment::{Directions, Experiment, Selection};
 use crate::fault::WrongField;
 use crate::quantity::{Fraction, Length};
@@ -34,6 +34,14 @@ pub struct Knobs {
     pub ambient: bool,
 }
 
+impl Knobs {
+    /// Whether the same rays are cast, from the same patches in the same order, down to some threshold.
+    pub fn casts_as(&self, other: &Knobs) -> bool {
+        let Knobs { threshold, ambient, .. } = *self;
+        Knobs { threshold, ambient, ..*other } == *self
+    }
+}
+
 impl fmt::Display for Knobs {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Knobs { mesh, pixels, split, threshold, overshoot, ambient } = self;
@@ -49,14 +57,25 @@ impl fmt::Display for Knobs {
     }
 }
 
-/// What a pilot run found.
+/// Witnesses are heard no longer after so many paths.
+const MOST_PATHS: u64 = 1 << 25;
+
+/// Thresholds at which pilot runs are looked at fall from this share of the brightest patch.
+const FIRST_THRESHOLD: f64 = 0.1;
+
+/// Steps in which they fall by half.
+const STEPS_A_HALVING: f64 = 2.0;
+
+/// The threshold of a step.
+pub fn threshold(step: usize) -> f64 {
+    FIRST_THRESHOLD / 2.0_f64.powf(step as f64 / STEPS_A_HALVING)
+}
+
+/// A pilot run: one for all thresholds, with and without the ambient term.
 pub struct Pilot {
-    /// Virtual seconds on one processor.
-    pub time_s: f64,
-    /// The part of the emitted energy that was not shot.
-    pub unshot: f64,
-    /// Mean radiosities over the patches that the experiment asks for, W/m².
-    pub means: Vec<Rgb>,
+    knobs: Knobs,
+    /// As it would end at the threshold of each step.
+    pub stops: Vec<Stopped>,
 }
 
 /// Pilot runs of one point of an experiment, on one processor; each is made once.
@@ -66,13 +85,24 @@ pub struct Pilots<'a> {
     settings: Settings,
     scene: &'a radiosity::Scene,
     machine: &'a Machine,
-    memory: usize,
-    watch: &'a dyn Fn(usize),
-    patches: Patches,
+    host: Host<'a>,
+    witnesses: RefCell<Witnesses>,
     /// By which the threshold is told.
     brightest: f64,
     problems: RefCell<Vec<Prepared>>,
-    runs: RefCell<Vec<(Knobs, Rc<Pilot>)>>,
+    runs: RefCell<Vec<Rc<Pilot>>>,
+    count: Cell<usize>,
+}
+
+/// What pilots may use of the host.
+#[derive(Clone, Copy)]
+pub struct Host<'a> {
+    /// Bytes for shots that they share.
+    pub memory: usize,
+    /// Threads that follow light.
+    pub threads: usize,
+    /// Hears how many were made.
+    pub watch: &'a dyn Fn(usize),
 }
 
 /// A mesh and a hemisphere, and what was shot there.
@@ -87,8 +117,7 @@ struct Prepared {
 }
 
 impl<'a> Pilots<'a> {
-    /// Of a point, with so many bytes of host memory for shots that pilots share; `watch` hears how many
-    /// were made.
+    /// Of a point.
     ///
     /// # Errors
     /// The field of the experiment at fault.
@@ -97,24 +126,42 @@ impl<'a> Pilots<'a> {
         settings: &Settings,
         scene: &'a radiosity::Scene,
         machine: &'a Machine,
-        memory: usize,
-        watch: &'a dyn Fn(usize),
+        host: Host<'a>,
     ) -> Result<Pilots<'a>, WrongField> {
+        if !scene.media.is_empty() {
+            let message = "errors are not estimated where there are \"media\"; expected none";
+            return Err(("accuracy", message.to_owned()));
+        }
         let problem = engine::problem(scene, settings)?;
-        let patches = Patches::of_all(&problem.space, &problem.environments);
-        let (settings, brightest) = (settings.clone(), brightest(&problem));
-        let (problems, runs) = (RefCell::default(), RefCell::default());
+        let (reflector, emitter) = (settings.patch_size, settings.emitter_patch_size);
+        let space = Space::new(scene.clone(), settings.cells.0);
+        let size = PatchSize { reflector, emitter };
+        let whole = LocalEnvironment::new(&space, space.grid.whole(), size);
+        // A reference of the same seed would be no judge of what it helped to find.
+        let seed = !base.seed;
+        let witnesses = RefCell::new(Witnesses::new(space, whole, seed, host.threads));
         Ok(Pilots {
             base,
-            settings,
+            settings: settings.clone(),
             scene,
             machine,
-            memory,
-            watch,
-            patches,
-            brightest,
-            problems,
-            runs,
+            host,
+            witnesses,
+            brightest: brightest(&problem),
+            problems: RefCell::default(),
+            runs: RefCell::default(),
+            count: Cell::new(0),
+        })
+    }
+
+    /// By how much patches with knobs are to be brighter, as a share of their brightest, than on the mesh
+    /// that is asked for: patches have energies by their areas, and the brightest may be as large on every mesh.
+    fn share(&self, knobs: &Knobs) -> Result<f64, String> {
+        Ok(match self.base.selection {
+            Selection::Energy => {
+                self.brightest * knobs.mesh * knobs.mesh / self.prepared(knobs)?.brightest
+            }
+            Selection::DeltaRadiosity => 1.0,
         })
     }
 
@@ -123,13 +170,7 @@ impl<'a> Pilots<'a> {
     /// # Errors
     /// If there is no such mesh or hemisphere.
     pub fn point(&self, knobs: &Knobs) -> Result<Experiment, String> {
-        // Patches have energies by their areas; the brightest may be as large on every mesh.
-        let share = match self.base.selection {
-            Selection::Energy => {
-                self.brightest * knobs.mesh * knobs.mesh / self.prepared(knobs)?.brightest
-            }
-            Selection::DeltaRadiosity => 1.0,
-        };
+        let share = self.share(knobs)?;
         let length = |metres: f64| Length::parse(&format!("{metres} m")).ok();
         let mut point = self.base.clone();
         point.accuracy = None;
@@ -146,35 +187,65 @@ impl<'a> Pilots<'a> {
         Ok(point)
     }
 
-    /// The run of a setting.
+    /// The run of a setting, down to the threshold of a step at least; the knobs' own, and whether they
+    /// ask for the ambient term, do not matter.
     ///
     /// # Errors
     /// Why it could not be made, or did not end.
-    pub fn run(&self, knobs: &Knobs) -> Result<Rc<Pilot>, String> {
-        if let Some((_, pilot)) = self.runs.borrow().iter().find(|(known, _)| known == knobs) {
-            return Ok(Rc::clone(pilot));
+    pub fn run(&self, knobs: &Knobs, steps: usize) -> Result<Rc<Pilot>, String> {
+        let knobs = Knobs { threshold: threshold(steps), ambient: false, ..*knobs };
+        let known = self.runs.borrow().iter().position(|pilot| pilot.knobs.casts_as(&knobs));
+        if let Some(known) = known {
+            let pilot = Rc::clone(&self.runs.borrow()[known]);
+            if pilot.stops.len() > steps {
+                return Ok(pilot);
+            }
+            self.runs.borrow_mut().remove(known);
         }
-        let point = Experiment { processors: 1, reference: None, ..self.point(knobs)? };
-        let Prepared { problem, overlaps, kept, .. } = self.prepared(knobs)?;
+        let point = Experiment { processors: 1, reference: None, ..self.point(&knobs)? };
+        let share = self.share(&knobs)?;
+        let Prepared { problem, overlaps, kept, .. } = self.prepared(&knobs)?;
         let run = engine::run(&problem, &point, &kept, Arc::new(|| ()));
-        let (figures, radiosity) =
-            engine::carry_out(&run, &point, On::Simulation, self.machine, 0, None)?;
-        let means = overlaps.means(&radiosity.concat());
-        let (time_s, unshot) = (figures.time_s.unwrap_or(0.0), figures.energy.unshot);
-        let pilot = Rc::new(Pilot { time_s, unshot, means });
-        self.runs.borrow_mut().push((*knobs, Rc::clone(&pilot)));
-        (self.watch)(self.count());
+        let thresholds: Vec<f64> = (0..=steps).map(|step| threshold(step) * share).collect();
+        let mut stops = engine::stops(&run, &point, self.machine, &thresholds)?;
+        stops.iter_mut().for_each(|stop| stop.radiosity = overlaps.means(&stop.radiosity));
+        let pilot = Rc::new(Pilot { knobs, stops });
+        self.runs.borrow_mut().push(Rc::clone(&pilot));
+        self.count.set(self.count.get() + 1);
+        (self.host.watch)(self.count.get());
         Ok(pilot)
     }
 
     /// Runs made so far.
     pub fn count(&self) -> usize {
-        self.runs.borrow().len()
+        self.count.get()
+    }
+
+    /// What a run that stopped says, with or without the ambient term, W/m².
+    pub fn solution(&self, stop: &Stopped, ambient: bool) -> Vec<Rgb> {
+        let witnesses = self.witnesses.borrow();
+        let term = if ambient { stop.ambient } else { Rgb::ZERO };
+        let both = stop.radiosity.iter().zip(&witnesses.patches().reflectance);
+        both.map(|(&radiosity, &reflectance)| radiosity + reflectance * term).collect()
     }
 
     /// How far one solution is from another, relative to what the other says is reflected.
-    pub fn difference(&self, one: &Pilot, other: &Pilot) -> f64 {
-        Difference::between(&self.patches, &other.means, &one.means, &other.means).relative_l2
+    pub fn difference(&self, one: &[Rgb], other: &[Rgb]) -> f64 {
+        Difference::between(self.witnesses.borrow().patches(), other, one, other).relative_l2
+    }
+
+    /// What witnesses say of a solution's error.
+    pub fn error(&self, solution: &[Rgb]) -> Testimony {
+        self.witnesses.borrow().error(solution)
+    }
+
+    /// Hears them until they are sure of the square of a solution's error, to `square` or to a tenth.
+    pub fn sharpen(&self, solution: &[Rgb], square: f64) {
+        let mut witnesses = self.witnesses.borrow_mut();
+        let unsure = |said: Testimony| said.deviation > square.max(0.1 * said.square);
+        while unsure(witnesses.error(solution)) && witnesses.paths() < MOST_PATHS {
+            witnesses.double(self.host.threads);
+        }
     }
 
     fn prepared(&self, knobs: &Knobs) -> Result<Prepared, String> {
@@ -198,8 +269,8 @@ impl<'a> Pilots<'a> {
                     pixels: knobs.pixels,
                     brightest: brightest(&problem),
                     problem,
-                    overlaps: Rc::new(Overlaps::new(&self.patches, &own)),
-                    kept: Arc::new(KeptShots::new(self.memory)),
+                    overlaps: Rc::new(Overlaps::new(self.witnesses.borrow().patches(), &own)),
+                    kept: Arc::new(KeptShots::new(self.host.memory)),
                 });
                 problems.len() - 1
             }

@@ -77,6 +77,7 @@ impl Plan {
             network: self.runs.iter().any(|run| network::tells(machine(run), run.point.network)),
             memory: self.runs.iter().any(|run| machine(run).node_memory.is_some()),
             media: self.problems.iter().any(|p| !p.problem.space.scene.media.is_empty()),
+            refine: self.problems.iter().any(|p| p.problem.refinement.is_some()),
             message_layer: self.runs.iter().any(|run| message_layer::tells(machine(run))),
             accuracy: self
                 .runs

@@ -30,6 +30,7 @@ pub fn recorded(plan: &Plan, endings: &Endings) -> Option<Recorded> {
             let answer = plan.answer(run, &endings.dense);
             answers[run.problem] = answer.map(|answer| Arc::new(laid_on(&answer, problem)));
         }
+        let published = plan.comparison.of(&run.point.scene, run.point.processors);
         reels.push(Reel {
             label: plan.label(run),
             scene: run.point.scene.clone(),
@@ -38,6 +39,7 @@ pub fn recorded(plan: &Plan, endings: &Endings) -> Option<Recorded> {
             machine: &plan.machines[run.machine].machine,
             owners: engine::owners(&run.point, problem),
             answer: answers[run.problem].clone(),
+            published: published.speed_up.parse().ok(),
             film,
         });
     }

@@ -47,7 +47,7 @@ pub fn html(
     let files = files(manifest);
     let [viewer_style, answers, data] = recorded.map(viewer_parts).unwrap_or_default();
     let body = format!(
-        "{lead}{summary}{warnings}{found}{answers}{figures}\
+        "{lead}{summary}{warnings}{found}{figures}{answers}\
          {cheapest}<h2>Runs</h2>\n{ratios}{grouped}\
          <details><summary>All columns</summary>\n{all}</details>\n\
          <h2>Choices</h2>\n\

@@ -6,6 +6,7 @@ use crate::cut::{automatic_cells, automatic_cut};
 use crate::experiment::{Directions, Experiment, is_false};
 use crate::fault::WrongField;
 use crate::quantity::Triple;
+use crate::refine::RefineFields;
 use crate::scene::Scene;
 use crate::wall_mesh::WallMesh;
 
@@ -30,10 +31,16 @@ pub struct Settings {
     /// Longest edge of a patch that emits light, metres.
     #[serde(rename = "emitter_patch_size_m")]
     pub emitter_patch_size: f64,
+    /// Where patches are smaller.
+    #[serde(skip_serializing_if = "RefineFields::is_none")]
+    pub refine: RefineFields,
     /// How rays are spread over the hemisphere.
     pub directions: Directions,
     /// Rays a source.
     pub pixels: u32,
+    /// Rays of the dimmest sources, if fewer.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub least_pixels: Option<u32>,
     /// Whether each source turns them.
     pub rotated: bool,
     /// Virtual walls in place of masks.
@@ -72,8 +79,10 @@ impl Settings {
             cells,
             patch_size,
             emitter_patch_size: emitters.map_or(patch_size, |size| size.value()),
+            refine: point.refine,
             directions: point.hemisphere.directions,
             pixels: point.hemisphere.pixels,
+            least_pixels: point.hemisphere.least_pixels,
             rotated: point.hemisphere.rotated,
             virtual_walls: WallMesh::of(point)?,
             mask_bits: point.mask_bits,

@@ -6,6 +6,7 @@ use crate::columns::{self, ENVIRONMENTS, PROCESSORS};
 use crate::experiment::Experiment;
 use crate::networks::{self, Finest};
 use crate::plan::{Plan, Run, all_else};
+use crate::refine;
 use crate::runner::{Ending, Endings};
 
 /// Rows under named columns.
@@ -119,7 +120,12 @@ impl View<'_> {
             "paper_speed_up" => published().speed_up,
             _ => {
                 let tuned = || self.run.tuned.and_then(|tuned| tuned.cell(column));
-                self.swept(column).or_else(tuned).unwrap_or_else(|| self.figure(column))
+                let problem = &self.plan.problems[self.run.problem].problem;
+                let pilot = || refine::cell(problem.refinement.as_ref()?, column);
+                self.swept(column)
+                    .or_else(tuned)
+                    .or_else(pilot)
+                    .unwrap_or_else(|| self.figure(column))
             }
         }
     }

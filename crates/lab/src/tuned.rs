@@ -3,14 +3,17 @@
 use crate::pilot::Knobs;
 
 /// The columns of runs.csv.
-pub const COLUMNS: [&str; 8] = [
+pub const COLUMNS: [&str; 11] = [
     "target_l2",
     "predicted_l2",
+    "predicted_deviation",
     "predicted_directions",
     "predicted_centre",
     "predicted_mesh",
     "predicted_stopping",
     "predicted_time_s",
+    "sweep_time_s",
+    "cost_over_sweep",
     "knobs",
 ];
 
@@ -21,10 +24,16 @@ pub struct Tuned {
     pub target: f64,
     /// The setting.
     pub knobs: Knobs,
-    /// Its errors by cause.
+    /// Its error, as witnesses say.
+    pub error: f64,
+    /// The standard error of what they say.
+    pub deviation: f64,
+    /// What makes it up, by the laws that led there.
     pub predicted: Causes,
     /// Its virtual time on one processor, seconds.
     pub time_s: f64,
+    /// The least time of a sweep's runs below the target, if there is such a sweep, seconds.
+    pub sweep_time_s: Option<f64>,
     /// Pilot runs that it took to find.
     pub pilots: usize,
 }
@@ -65,12 +74,17 @@ impl Tuned {
         let Causes { directions, centre, mesh, stopping } = self.predicted;
         let value = match column {
             "target_l2" => return Some(self.target.to_string()),
-            "predicted_l2" => self.predicted.total(),
+            "predicted_l2" => self.error,
+            "predicted_deviation" => self.deviation,
             "predicted_directions" => directions,
             "predicted_centre" => centre,
             "predicted_mesh" => mesh,
             "predicted_stopping" => stopping,
             "predicted_time_s" => return Some(format!("{:.6}", self.time_s)),
+            "sweep_time_s" => return self.sweep_time_s.map(|time_s| format!("{time_s:.6}")),
+            "cost_over_sweep" => {
+                return self.sweep_time_s.map(|time_s| format!("{:.4}", self.time_s / time_s));
+            }
             "knobs" => return Some(self.knobs.to_string()),
             _ => return None,
         };
@@ -83,10 +97,11 @@ impl Tuned {
         let causes =
             self.predicted.named().map(|(name, error)| format!("{name} {}", percent(error)));
         format!(
-            "{scene} to {}: {}. Predicted error {} ({}), {:.0} s on one processor; {} pilot runs.",
+            "{scene} to {}: {}. Predicted error {:.2} ± {} ({}), {:.0} s on one processor; {} pilot runs.",
             percent(self.target),
             self.knobs,
-            percent(self.predicted.total()),
+            100.0 * self.error,
+            percent(self.deviation),
             causes.join(", "),
             self.time_s,
             self.pilots,

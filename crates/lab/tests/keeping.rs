@@ -22,6 +22,8 @@ fn swept(project: &Project, memory: usize) -> (Results, Endings) {
         shot_files,
         traces: None,
         viewing: Viewing::None,
+        feed: None,
+        pulse: false,
     };
     let endings = carry_out(&plan, &project.path("out"), &options, Arc::new(|_| {})).unwrap();
     assert_eq!(options.shot_files.unwrap().trouble(), None);
@@ -102,6 +104,8 @@ fn a_folder_that_has_gone_is_told() {
         shot_files,
         traces: None,
         viewing: Viewing::None,
+        feed: None,
+        pulse: false,
     };
     let endings = carry_out(&plan, &project.path("out"), &options, Arc::new(|_| {})).unwrap();
     assert!(Results::of(&plan, &endings, on).unwrap().table == results.table);
@@ -129,6 +133,8 @@ fn sweeps_at_a_time_do_not_harm_each_other() {
                     shot_files,
                     traces: None,
                     viewing: Viewing::None,
+                    feed: None,
+                    pulse: false,
                 };
                 let out = tempfile::tempdir().unwrap();
                 let endings = carry_out(&plan, out.path(), &options, Arc::new(|_| {})).unwrap();

@@ -47,6 +47,7 @@ fn every_field_is_described_and_every_leaf_can_be_swept() {
             "title",
             "node_memory",
             "display",
+            "refine",
             "hemisphere",
             "virtual_walls",
             "source_split",

@@ -21,6 +21,8 @@ fn options(threads: usize) -> Options {
         shot_files: None,
         traces: None,
         viewing: Viewing::None,
+        feed: None,
+        pulse: false,
     }
 }
 
@@ -35,7 +37,7 @@ fn carried_out(plan: &Plan, out: &Path, options: &Options) -> (Results, usize, u
     let watch = Arc::new(move |event| match event {
         Event::Found => _ = watched.0.fetch_add(1, Ordering::Relaxed),
         Event::Finished { .. } => _ = watched.1.fetch_add(1, Ordering::Relaxed),
-        Event::Shot { .. } => {}
+        Event::Shot { .. } | Event::Pulse { .. } => {}
     });
     let endings = carry_out(plan, out, options, watch).unwrap();
     let results = Results::of(plan, &endings, options.on).unwrap();

@@ -59,8 +59,9 @@ impl Reader {
     }
 
     fn begin(&mut self, state: &State) -> Option<Event> {
-        let wanted =
-            |run: &usize| self.only.is_none_or(|only| only == *run) && self.last != Some(*run);
+        // One that is over and gone cannot be waited for.
+        let only = self.only.filter(|run| state.runs.contains_key(run));
+        let wanted = |run: &usize| only.is_none_or(|only| only == *run) && self.last != Some(*run);
         let mut known = state.under_way.iter().rev().chain(state.runs.keys()).copied();
         let run = known.find(wanted)?;
         (self.reads, self.parts, self.cut) = (Some(run), 0, false);

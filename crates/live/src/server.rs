@@ -108,6 +108,8 @@ impl Desk {
                 let only = query.strip_prefix("run=").and_then(|run| run.parse().ok());
                 stream::write(&self.board, only, &mut request.into_writer())
             }
+            // Every browser asks for it.
+            "/favicon.ico" => request.respond(Response::empty(204)),
             path => match path.strip_prefix('/').and_then(|name| self.site.file(name)) {
                 Some(text) => {
                     request.respond(file("text/plain; charset=us-ascii", text.as_bytes()))

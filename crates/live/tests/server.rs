@@ -147,7 +147,8 @@ fn a_viewer_that_never_reads_holds_up_nobody() {
     board.finish();
     for viewer in &mut viewers {
         viewer.read_until("event: finished\n");
-        let numbers = viewer.data().iter().filter(|data| data.len() > 1000).map(|data| &data[..5]);
+        let data = viewer.data();
+        let numbers = data.iter().filter(|data| data.len() > 1000).map(|data| &data[..5]);
         assert!(numbers.eq((0..PARTS).map(|part| format!("{part:05}"))), "parts are missing");
     }
     // All but the stalled one have left; two have not fetched the page.

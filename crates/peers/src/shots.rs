@@ -145,10 +145,10 @@ fn shoot_and_update(problem: &Problem, queued: &mut Queued<'_>, memory: &mut Mem
     let frame = problem.hemisphere.frame(source.centre, source.normal);
     let Records { patches, pieces } = &mut memory.records[*number as usize];
     let mut work = Work::NONE;
-    for word in 0..words.len() {
-        let mut rest = words[word];
+    for (index, word) in words.iter_mut().enumerate() {
+        let mut rest = *word;
         while rest != 0 {
-            let pixel = word * 64 + rest.trailing_zeros() as usize;
+            let pixel = index * 64 + rest.trailing_zeros() as usize;
             let ray = ray(problem, source, &frame, pixel);
             let goes_on = match cast(&problem.space, environment, &ray, source.polygon, &mut work) {
                 End::Hit { polygon, distance } => {
@@ -161,7 +161,7 @@ fn shoot_and_update(problem: &Problem, queued: &mut Queued<'_>, memory: &mut Mem
                 End::Leaves(side) => environment.has_neighbour(side),
             };
             if !goes_on {
-                words[word] &= !(1 << (pixel % 64));
+                *word &= !(1 << (pixel % 64));
             }
             rest &= rest - 1;
         }
@@ -195,16 +195,16 @@ fn copy_for_neighbours(
         copy.copy_from_slice(words);
         let (axis, plane) = (side.axis, if side.upper { max } else { min });
         let (b, c) = ((axis + 1) % 3, (axis + 2) % 3);
-        for word in 0..copy.len() {
-            let mut rest = copy[word];
+        for (index, word) in copy.iter_mut().enumerate() {
+            let mut rest = *word;
             while rest != 0 {
-                let pixel = word * 64 + rest.trailing_zeros() as usize;
+                let pixel = index * 64 + rest.trailing_zeros() as usize;
                 let ray = ray(problem, source, frame, pixel);
                 let distance = (plane[axis] - ray.origin[axis]) * ray.inverse[axis];
                 let point = ray.at(distance);
                 let within = |axis: usize| min[axis] <= point[axis] && point[axis] < max[axis];
                 if distance <= 0.0 || !within(b) || !within(c) {
-                    copy[word] &= !(1 << (pixel % 64));
+                    *word &= !(1 << (pixel % 64));
                 }
                 rest &= rest - 1;
             }

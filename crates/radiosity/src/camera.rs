@@ -23,12 +23,12 @@ pub struct Camera {
 
 impl Camera {
     /// Looks down from the front right, so that the box just fills the picture; z is up.
-    pub fn overview(bounds: &Bounds) -> Camera {
-        Camera::around(bounds, DVec3::new(-0.25, 0.9, -1.1), 1200, 800)
+    pub fn overview(bounds: &Bounds, width: u32, height: u32) -> Camera {
+        Camera::around(bounds, DVec3::new(-0.25, 0.9, -1.1), width, height)
     }
 
     /// Stands in a corner of the box, at an eye's height if it is so high, and looks across it.
-    pub fn inside(bounds: &Bounds) -> Camera {
+    pub fn inside(bounds: &Bounds, width: u32, height: u32) -> Camera {
         const EYE: f64 = 1.7;
         let at = |share: f64, height: f64| {
             let floor = bounds.min + bounds.size() * DVec3::new(share, share, 0.0);
@@ -36,7 +36,7 @@ impl Camera {
         };
         let field_of_view_degrees = 60.0;
         let (eye, target) = (at(0.05, EYE), at(0.95, 0.7 * EYE));
-        Camera { eye, target, field_of_view_degrees, ..Camera::overview(bounds) }
+        Camera { eye, target, field_of_view_degrees, ..Camera::overview(bounds, width, height) }
     }
 
     /// Looks along a direction, so that the box just fills the picture; z is up.

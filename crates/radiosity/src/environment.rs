@@ -29,9 +29,9 @@ pub struct Patch {
     pub polygon: u32,
 }
 
-/// The part of one polygon inside an environment, and its quad-tree, which all its leaves reach at
-/// the same depth on each side: 2^i by 2^j slots, each with its patch. None of it is left of a polygon
-/// that shows the environment only its back.
+/// The part of one polygon inside an environment, and its quad-tree: 2^i by 2^j slots, as fine as its
+/// finest leaves, each with its patch; a larger leaf has several. Unless the mesh is refined all leaves
+/// are alike. None of it is left of a polygon that shows the environment only its back.
 #[derive(Default)]
 pub(crate) struct Piece {
     polygon: u32,
@@ -63,6 +63,8 @@ pub struct LocalEnvironment {
     pub(crate) pieces: Vec<Piece>,
     /// Patch of each slot of each piece; a slot outside its polygon names the nearest patch.
     pub(crate) slots: Vec<u32>,
+    /// Of each patch the slots that it was cut from, where they may be several: in a refined mesh.
+    pub(crate) leaves: Vec<Leaf>,
     /// Over the boxes of its pieces.
     pub(crate) tree: Tree,
     /// The area that a patch counts for when its radiosity is told: a sliver's radiosity, a few
@@ -71,6 +73,18 @@ pub struct LocalEnvironment {
     whole: Block,
 }
 
+/// A leaf of a piece's quad-tree: a square of slots.
+#[derive(Clone, Copy)]
+pub(crate) struct Leaf {
+    /// The first of them along u and v.
+    pub(crate) first: [u32; 2],
+    /// How many there are along each.
+    pub(crate) side: u32,
+}
+
+/// How often a slot is to be halved, by its polygon, its corners and the lengths of its edges.
+pub(crate) type Depth<'a> = dyn Fn(u32, &[DVec3], [f64; 2]) -> u32 + 'a;
+
 /// Fraction of a full-sized patch's area below which a sliver counts as that large.
 const SLIVER: f64 = 1e-3;
 
@@ -78,11 +92,22 @@ impl LocalEnvironment {
     /// Cut the polygons of a block of cells out of the scene and mesh them.
     #[doc(alias = "§4.2.1")]
     pub fn new(space: &Space, block: Block, size: PatchSize) -> LocalEnvironment {
+        LocalEnvironment::meshed(space, block, size, None)
+    }
+
+    /// The same with slots halved further where `depth` says so.
+    pub(crate) fn meshed(
+        space: &Space,
+        block: Block,
+        size: PatchSize,
+        depth: Option<&Depth>,
+    ) -> LocalEnvironment {
         let mut environment = LocalEnvironment {
             block,
             patches: Vec::new(),
             pieces: Vec::new(),
             slots: Vec::new(),
+            leaves: Vec::new(),
             tree: Tree::default(),
             least_area: SLIVER * size.reflector * size.reflector,
             whole: space.grid.whole(),
@@ -92,7 +117,7 @@ impl LocalEnvironment {
         met.sort_unstable();
         met.dedup();
         for &id in &met {
-            environment.add_polygon(space, id, size);
+            environment.add_polygon(space, id, size, depth);
         }
         // Wider than what rounding and the tolerance of hits can put outside.
         let widen = 8.0 * space.scene.tolerance();
@@ -106,6 +131,7 @@ impl LocalEnvironment {
         environment.patches.shrink_to_fit();
         environment.pieces.shrink_to_fit();
         environment.slots.shrink_to_fit();
+        environment.leaves.shrink_to_fit();
         environment
     }
 
@@ -164,7 +190,7 @@ impl LocalEnvironment {
         space.scene.material(&space.scene.polygons[polygon as usize]).emission * area
     }
 
-    fn add_polygon(&mut self, space: &Space, id: u32, size: PatchSize) {
+    fn add_polygon(&mut self, space: &Space, id: u32, size: PatchSize, depth: Option<&Depth>) {
         let polygon = &space.scene.polygons[id as usize];
         let bounds = space.grid.bounds(&self.block);
         let corners: Vec<DVec3> = space.scene.corners(polygon).collect();
@@ -183,11 +209,20 @@ impl LocalEnvironment {
             piece = clip_to_box(&corners, &near);
             piece.iter_mut().for_each(|p| *p = p.clamp(bounds.min, bounds.max));
         }
-        self.add_piece(id, &piece, &corners, polygon.plane.normal, size);
+        self.add_piece(id, &piece, &corners, polygon.plane.normal, size, depth);
     }
 
-    /// Mesh one convex piece: halve each side until it is no longer than `size`.
-    fn add_piece(&mut self, id: u32, piece: &[DVec3], corners: &[DVec3], n: DVec3, size: f64) {
+    /// Mesh one convex piece: halve each side until it is no longer than `size`, and then each slot of that
+    /// as often as `depth` says.
+    fn add_piece(
+        &mut self,
+        id: u32,
+        piece: &[DVec3],
+        corners: &[DVec3],
+        n: DVec3,
+        size: f64,
+        depth: Option<&Depth>,
+    ) {
         let u = (corners[1] - corners[0]).normalize();
         let v = n.cross(u);
         let flat = area_and_centroid(piece).0 == 0.0;
@@ -195,22 +230,41 @@ impl LocalEnvironment {
         let (u0, u_length) = extent(piece, u);
         let (v0, v_length) = extent(piece, v);
         let (nu, nv) = (halvings(u_length, size), halvings(v_length, size));
-        let scale = |n: u32, length: f64| if length > 0.0 { f64::from(n) / length } else { 0.0 };
-        let (su, sv) = (scale(nu, u_length), scale(nv, v_length));
-        let first_slot = self.slots.len() as u32;
-        let mut leaves = Vec::with_capacity((nu * nv) as usize);
-        for j in 0..nv {
+        let row = |j: u32, nv: u32| {
             let (low, high) = slice(v0, v_length, j, nv);
-            let row = if nv > 1 { clip_to_slab(piece, v, low, high) } else { piece.to_vec() };
-            for i in 0..nu {
-                let (low, high) = slice(u0, u_length, i, nu);
-                let leaf = if nu > 1 { clip_to_slab(&row, u, low, high) } else { row.clone() };
-                let (area, centre) = area_and_centroid(&leaf);
+            if nv > 1 { clip_to_slab(piece, v, low, high) } else { piece.to_vec() }
+        };
+        let part_of = |row: &[DVec3], i: u32, nu: u32| {
+            let (low, high) = slice(u0, u_length, i, nu);
+            if nu > 1 { clip_to_slab(row, u, low, high) } else { row.to_vec() }
+        };
+        let slots = || (0..nv).flat_map(|j| (0..nu).map(move |i| [i, j]));
+        let edges = [u_length / f64::from(nu), v_length / f64::from(nv)];
+        let depth_of = |[i, j]: [u32; 2]| {
+            depth.map_or(0, |depth| depth(id, &part_of(&row(j, nv), i, nu), edges))
+        };
+        let depths: Vec<u32> = slots().map(depth_of).collect();
+        let deepest = depths.iter().fold(0, |deepest, &depth| deepest.max(depth));
+        let (nu, nv) = (nu << deepest, nv << deepest);
+        let mut leaves = Vec::with_capacity((nu * nv) as usize);
+        let mut of_row = ([u32::MAX; 2], Vec::new());
+        for (slot, depth) in slots().zip(depths) {
+            let (along, side) = (1 << depth, 1 << (deepest - depth));
+            for place in (0..along).flat_map(|j| (0..along).map(move |i| [i, j])) {
+                let at = [0, 1].map(|axis| slot[axis] * along + place[axis]);
+                if of_row.0 != [at[1], side] {
+                    of_row = ([at[1], side], row(at[1], nv / side));
+                }
+                let (area, centre) = area_and_centroid(&part_of(&of_row.1, at[0], nu / side));
                 let keep = area > 0.0 || nu * nv == 1;
-                leaves.push(keep.then_some(Patch { centre, area, polygon: id }));
+                let patch = keep.then_some(Patch { centre, area, polygon: id });
+                leaves.push((Leaf { first: at.map(|i| i * side), side }, patch));
             }
         }
-        self.push_leaves(&leaves, nu);
+        let first_slot = self.slots.len() as u32;
+        self.push_leaves(&leaves, [nu, nv], depth.is_some());
+        let scale = |n: u32, length: f64| if length > 0.0 { f64::from(n) / length } else { 0.0 };
+        let (su, sv) = (scale(nu, u_length), scale(nv, v_length));
         self.pieces.push(Piece {
             polygon: id,
             u: u * su,
@@ -223,30 +277,31 @@ impl LocalEnvironment {
         });
     }
 
-    /// Number the leaves that hold something as patches; the others name the nearest that does.
-    fn push_leaves(&mut self, leaves: &[Option<Patch>], nu: u32) {
+    /// Number the leaves that hold something as patches, which their slots name; the other slots name
+    /// the nearest that does.
+    fn push_leaves(&mut self, leaves: &[(Leaf, Option<Patch>)], [nu, nv]: [u32; 2], kept: bool) {
         let first = self.patches.len() as u32;
-        self.patches.extend(leaves.iter().flatten());
-        let mut full = Vec::with_capacity(leaves.len());
-        let mut next = first;
-        for (slot, leaf) in leaves.iter().enumerate() {
-            if leaf.is_some() {
-                full.push((slot as u32, next));
-                next += 1;
+        let mut of_slot = vec![None; (nu * nv) as usize];
+        for (leaf, patch) in leaves {
+            let Some(patch) = patch else { continue };
+            let number = self.patches.len() as u32;
+            self.patches.push(*patch);
+            self.leaves.extend(Some(*leaf).filter(|_| kept));
+            let [i, j] = leaf.first;
+            for row in j..j + leaf.side {
+                let start = (row * nu + i) as usize;
+                of_slot[start..start + leaf.side as usize].fill(Some(number));
             }
         }
-        let mut of_slot = full.iter().peekable();
-        for slot in 0..leaves.len() as u32 {
-            if let Some(&(_, patch)) = of_slot.next_if(|(full, _)| *full == slot) {
-                self.slots.push(patch);
-                continue;
-            }
+        let full: Vec<(u32, u32)> =
+            (0..).zip(&of_slot).filter_map(|(slot, patch)| Some((slot, (*patch)?))).collect();
+        self.slots.extend((0..).zip(of_slot).map(|(slot, patch): (u32, _)| {
             let away = |other: u32| {
                 (slot % nu).abs_diff(other % nu).pow(2) + (slot / nu).abs_diff(other / nu).pow(2)
             };
-            let nearest = full.iter().min_by_key(|(other, _)| away(*other));
-            self.slots.push(nearest.map_or(first, |&(_, patch)| patch));
-        }
+            let nearest = || full.iter().min_by_key(|(other, _)| away(*other));
+            patch.unwrap_or_else(|| nearest().map_or(first, |&(_, patch)| patch))
+        }));
     }
 }
 

@@ -86,16 +86,18 @@ impl<'a> Mesh<'a> {
         }
         let mut light: Vec<Rgb> = sums.iter().map(|&(sum, area)| sum / area).collect();
         for fan in self.fans.iter().flatten() {
-            let (mut sum, mut length) = (Rgb::ZERO, 0.0);
-            for [_, from, to] in triangles(fan) {
-                let [from, to] = [from as usize, to as usize];
-                let edge = self.vertices.positions[from].distance(self.vertices.positions[to]);
-                sum += (light[from] + light[to]) / 2.0 * edge;
-                length += edge;
-            }
-            fan.first().into_iter().for_each(|&middle| light[middle as usize] = sum / length);
+            let Some((&middle, corners)) = fan.split_first() else { continue };
+            let corner =
+                |&vertex: &u32| (self.positions()[vertex as usize], light[vertex as usize]);
+            light[middle as usize] = mean_along(corners.iter().map(corner));
         }
         light
+    }
+
+    /// Vertices of each patch by environment and patch: its middle, then its corners; none for a
+    /// patch without area.
+    pub fn fans(&self) -> impl Iterator<Item = &[u32]> {
+        self.fans.iter().flatten().map(Vec::as_slice)
     }
 
     /// Radiosity of a polygon at a point on its front, W/m², where the vertices have `light`; black
@@ -125,6 +127,19 @@ fn triangles(fan: &[u32]) -> impl Iterator<Item = [u32; 3]> {
     let corners = fan.get(1..).unwrap_or_default();
     let next = corners.iter().cycle().skip(1);
     corners.iter().zip(next).map(|(&corner, &next)| [fan[0], corner, next])
+}
+
+/// The mean of what is known at corners along the edges between them: the same when an edge is told in
+/// two pieces.
+fn mean_along(corners: impl Iterator<Item = (DVec3, DVec3)> + Clone) -> DVec3 {
+    let next = corners.clone().cycle().skip(1);
+    let (mut sum, mut length) = (DVec3::ZERO, 0.0);
+    for ((from, a), (to, b)) in corners.zip(next) {
+        let edge = from.distance(to);
+        sum += (a + b) / 2.0 * edge;
+        length += edge;
+    }
+    sum / length
 }
 
 /// Weights of the corners that make up a point in the plane of a triangle; none if that has no area.
@@ -165,7 +180,7 @@ impl Vertices {
             return Fan::new();
         }
         let normal = polygon.plane.normal;
-        let middle = outline.iter().sum::<DVec3>() / outline.len() as f64;
+        let middle = mean_along(outline.iter().map(|&corner| (corner, corner)));
         let mut fan = vec![self.add(middle, normal)];
         for &corner in outline {
             let key = (group(polygon), steps(corner / self.step));

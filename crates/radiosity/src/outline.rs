@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::clip::{area_and_centroid, clip_to_box, clip_to_slab};
-use crate::environment::{LocalEnvironment, Patch};
+use crate::environment::{Leaf, LocalEnvironment, Patch};
 use crate::space::Space;
 
 impl LocalEnvironment {
@@ -16,11 +16,15 @@ impl LocalEnvironment {
         let polygon = &space.scene.polygons[polygon as usize];
         let corners: Vec<DVec3> = space.scene.corners(polygon).collect();
         let all = clip_to_box(&corners, &space.grid.bounds(&self.block));
-        let part = |slot: u32| {
-            let (i, j) = (f64::from(slot % piece.nu), f64::from(slot / piece.nu));
-            let row = clip_to_slab(&all, piece.v, piece.v0 + j, piece.v0 + j + 1.0);
-            clip_to_slab(&row, piece.u, piece.u0 + i, piece.u0 + i + 1.0)
+        let leaf = |Leaf { first, side }: Leaf| {
+            let [i, j, side] = [first[0], first[1], side].map(f64::from);
+            let row = clip_to_slab(&all, piece.v, piece.v0 + j, piece.v0 + j + side);
+            clip_to_slab(&row, piece.u, piece.u0 + i, piece.u0 + i + side)
         };
+        if let Some(&several) = self.leaves.get(patch as usize) {
+            return leaf(several);
+        }
+        let part = |slot: u32| leaf(Leaf { first: [slot % piece.nu, slot / piece.nu], side: 1 });
         // Slots outside the polygon name a patch too, the nearest: not theirs is the area.
         let slots = 0..piece.nu * piece.nv;
         let own = slots.filter(|slot| self.slots[(piece.first_slot + slot) as usize] == patch);

@@ -14,8 +14,8 @@ use crate::tone::{Exposure, Tone, geometric_mean, srgb};
 /// Samples along a pixel's side.
 const FINENESS: usize = 2;
 
-/// Most pixels along a side.
-const LARGEST: u32 = 8192;
+/// The most pixels that a picture may have along a side.
+pub const LARGEST_PICTURE: u32 = 8192;
 
 /// Brightness where nothing is seen, of 1.
 const BACKGROUND: Rgb = Rgb::splat(0.012);
@@ -46,7 +46,7 @@ pub struct Picture {
 
 /// A picture of a size that cannot be made.
 #[derive(Debug, thiserror::Error)]
-#[error("picture of {width} x {height} pixels; expected 1 to {LARGEST} either way")]
+#[error("picture of {width} x {height} pixels; expected 1 to {LARGEST_PICTURE} either way")]
 pub struct PictureError {
     width: u32,
     height: u32,
@@ -65,7 +65,7 @@ pub fn render(
     options: PictureOptions,
 ) -> Result<Picture, PictureError> {
     let (width, height) = (camera.width, camera.height);
-    if !(1..=LARGEST).contains(&width) || !(1..=LARGEST).contains(&height) {
+    if !(1..=LARGEST_PICTURE).contains(&width) || !(1..=LARGEST_PICTURE).contains(&height) {
         return Err(PictureError { width, height });
     }
     let mut canvas = Canvas::new(camera, FINENESS);

@@ -19,13 +19,25 @@ pub fn solve(
     stop_below: f64,
     most_shots: u64,
 ) -> (Light, u64) {
+    solve_watched(space, environment, hemisphere, stop_below, most_shots, |_| ())
+}
+
+/// The same; `watch` is told, shot by shot, what part of the emitted power is left.
+pub fn solve_watched(
+    space: &Space,
+    environment: &LocalEnvironment,
+    hemisphere: &Hemisphere,
+    stop_below: f64,
+    most_shots: u64,
+    mut watch: impl FnMut(f64),
+) -> (Light, u64) {
     let mut light = Light::new(space, environment);
     let mut greatest = Greatest::new(light.unshot.iter().map(|power| power.element_sum()));
     let mut left = light.unshot_power().element_sum();
-    let goal = left * stop_below;
+    let emitted = left;
     let mask = Mask::all(hemisphere.pixels());
     let mut shots = 0;
-    while shots < most_shots && left > goal {
+    while shots < most_shots && left > emitted * stop_below {
         let Some((power, patch)) = greatest.best() else { break };
         let source = light.take_source(space, environment, 0, patch);
         let shot = shoot(space, environment, hemisphere, &source, &mask);
@@ -35,6 +47,7 @@ pub fn solve(
             greatest.set(hit, light.unshot[hit as usize].element_sum());
         }
         shots += 1;
+        watch(left / emitted);
     }
     (light, shots)
 }

@@ -111,7 +111,7 @@ fn a_camera_inside_a_scene_sees_what_is_ahead() {
 #[test]
 fn an_overview_just_holds_the_scene() {
     let scene = squares(true);
-    let camera = Camera { width: 300, height: 200, ..Camera::overview(&scene.bounds) };
+    let camera = Camera::overview(&scene.bounds, 300, 200);
     let picture = render(&scene, &camera, |_, _| Rgb::ONE, PictureOptions::default()).unwrap();
     let seen: Vec<(usize, usize)> = (0..300 * 200)
         .map(|i| (i % 300, i / 300))

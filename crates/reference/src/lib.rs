@@ -20,6 +20,7 @@ mod rays;
 mod ring;
 mod sampling;
 mod stored;
+mod witnesses;
 
 pub use centres::Centres;
 pub use cubature::{Estimate, Tolerance};
@@ -32,3 +33,4 @@ pub use patches::Patches;
 pub use paths::{Paths, Problem, Received};
 pub use rays::ObjectRays;
 pub use stored::{Method, Reference, Subject};
+pub use witnesses::{Testimony, Witnesses};

@@ -8,8 +8,8 @@ use serde::Deserialize;
 use serde_json::{Map, Value};
 
 use crate::change::Change;
-use crate::naive::Twin;
 use crate::right::Right;
+use crate::twin::Twin;
 
 /// A failure, and how it is seen that it does not happen here.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]

@@ -4,7 +4,8 @@ use radiosity::{End, Ray, Source};
 use virtwall::Problem;
 
 use crate::bench::{Bench, Trial};
-use crate::rays::{Count, emits, follow, shoot_through, sources};
+use crate::finding::Count;
+use crate::rays::{emits, follow, shoot_through, sources};
 
 /// Patches that emit, as sources, and those that do not.
 pub fn lamps_and_others(bench: &Bench, trial: &Trial) -> (Vec<Source>, Vec<Source>) {

@@ -5,8 +5,7 @@ use std::fmt::Write;
 use serde_json::Value;
 
 use crate::case::{Listed, Overlay};
-use crate::rays::Count;
-use crate::right::{Finding, Said};
+use crate::finding::{Count, Finding, Said};
 use crate::suite::Verdict;
 
 /// The columns of the table.

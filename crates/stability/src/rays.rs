@@ -7,22 +7,7 @@ use radiosity::{End, Mask, Ray, Rgb, Shot, Side, Source, Work, cast, shoot};
 use virtwall::Problem;
 
 use crate::bench::{Bench, Trial};
-
-/// Rays that are wrong, of so many.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Count {
-    /// Wrong ones.
-    pub wrong: u64,
-    /// All.
-    pub of: u64,
-}
-
-impl Count {
-    /// Both added.
-    pub fn and(self, other: Count) -> Count {
-        Count { wrong: self.wrong + other.wrong, of: self.of + other.of }
-    }
-}
+use crate::finding::Count;
 
 /// Patches of a trial that make about so many rays together, evenly chosen from all.
 pub fn sources(bench: &Bench, trial: &Trial, most: u64) -> Vec<Source> {

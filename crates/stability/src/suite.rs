@@ -6,7 +6,8 @@ use lab::{Document, Fault};
 
 use crate::bench::Bench;
 use crate::case::{Case, Overlay};
-use crate::right::{Finding, findings, words};
+use crate::finding::{Finding, words};
+use crate::measures::findings;
 
 /// What came of a case.
 pub struct Verdict {

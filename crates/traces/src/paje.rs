@@ -69,7 +69,7 @@ const DESTROY_CONTAINER: usize = 10;
 const ENDED: &str = "z";
 
 /// The types, by aliases: run R, node N; state S, queue Q, unshot power U, power in transit T, message
-/// L. The run itself is r, the nodes are their ranks plus 1: 0 is no name for a container.
+/// L. The run and then the nodes are numbered from 1: 0 is no name for a container.
 const TYPES: &str = "0 R 0 Run
 0 N R Node
 1 S N Activity
@@ -79,29 +79,35 @@ const TYPES: &str = "0 R 0 Run
 3 L R N N Message
 ";
 
+/// The run's container.
+const RUN: Alias = Alias(1);
+
 /// The file's text.
+///
+/// An arrow is two lines, each of which must tell its time, type, containers, value and key: some 55 bytes
+/// with names of one or two letters and times to the nanosecond. States and variables come on top.
 pub(crate) fn encode(recording: &Recording, title: &str, sample: Sample) -> Vec<u8> {
     let mut text = definitions();
     let last = recording.nodes.len() - 1;
     let title = sample.caption(title).replace('"', "'");
-    let _ = writeln!(text, "{CREATE_CONTAINER} 0 r R 0 \"{title}\"");
+    let _ = writeln!(text, "{CREATE_CONTAINER} 0 {RUN} R 0 \"{title}\"");
     for rank in 0..=last {
         let name = if rank == last { "service node".to_owned() } else { format!("node {rank}") };
-        let _ = writeln!(text, "{CREATE_CONTAINER} 0 {} N r \"{name}\"", rank + 1);
+        let _ = writeln!(text, "{CREATE_CONTAINER} 0 {} N {RUN} \"{name}\"", node(rank));
     }
     let mut lines = Lines::default();
     for (rank, mail) in Mail::of(recording).iter().enumerate() {
-        let node = &recording.nodes[rank];
-        let lane = Lane { messages: &recording.messages, node, mail, sample };
-        states(&mut lines, rank + 1, &lane);
+        let record = &recording.nodes[rank];
+        let lane = Lane { messages: &recording.messages, node: record, mail, sample };
+        states(&mut lines, &node(rank), &lane);
     }
     powers(&mut lines, recording);
     messages(&mut lines, recording, sample);
     let end = lines.write(&mut text);
     for rank in 0..=last {
-        let _ = writeln!(text, "{DESTROY_CONTAINER} {} N {}", Seconds(end), rank + 1);
+        let _ = writeln!(text, "{DESTROY_CONTAINER} {} N {}", Seconds(end), node(rank));
     }
-    let _ = writeln!(text, "{DESTROY_CONTAINER} {} R r", Seconds(end));
+    let _ = writeln!(text, "{DESTROY_CONTAINER} {} R {RUN}", Seconds(end));
     text.into_bytes()
 }
 
@@ -124,17 +130,23 @@ fn definitions() -> String {
     text
 }
 
-/// What a node does, and how many sources wait for it.
-fn states(lines: &mut Lines, container: usize, lane: &Lane) {
+/// What a node does, and how many sources wait for it. What lasts is said once, where it begins: where one
+/// message ends and the next begins, their arrows say.
+fn states(lines: &mut Lines, container: &Alias, lane: &Lane) {
+    let mut last = None;
     for (time, mark) in lane.marks(true) {
-        if let Mark::Begin(activity, _) = mark {
+        if let Mark::Begin(activity, _) = mark
+            && last.replace(activity) != Some(activity)
+        {
             let alias = alias(activity);
             lines.add(time, 0, format_args!("{SET_STATE} {} S {container} {alias}", Seconds(time)));
         }
     }
     let end = lane.node.end();
     lines.add(end, 0, format_args!("{SET_STATE} {} S {container} {ENDED}", Seconds(end)));
-    for (i, &(time, length)) in lane.node.queue.iter().enumerate() {
+    // Of several lengths at one time the last one lasts.
+    let lengths = lane.node.queue.chunk_by(|a, b| a.0 == b.0).filter_map(|at_once| at_once.last());
+    for (i, &(time, length)) in lengths.enumerate() {
         if lane.sample.holds(i) {
             let time_s = Seconds(time);
             lines.add(time, 1, format_args!("{SET_VARIABLE} {time_s} Q {container} {length}"));
@@ -142,17 +154,23 @@ fn states(lines: &mut Lines, container: usize, lane: &Lane) {
     }
 }
 
+/// To four digits, which is more than a chart shows.
 fn powers(lines: &mut Lines, recording: &Recording) {
     let mut last = [None; 2];
     for energy in &recording.energy {
-        let values = [energy.unshot as f32, energy.in_transit as f32];
+        let values = [energy.unshot, energy.in_transit].map(four_digits);
         for ((last, value), variable) in last.iter_mut().zip(values).zip(["U", "T"]) {
             if last.replace(value) != Some(value) {
                 let time = Seconds(energy.at);
-                lines.add(energy.at, 1, format_args!("{SET_VARIABLE} {time} {variable} r {value}"));
+                let line = format_args!("{SET_VARIABLE} {time} {variable} {RUN} {value}");
+                lines.add(energy.at, 1, line);
             }
         }
     }
+}
+
+fn four_digits(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
 }
 
 /// Arrows; one that was never read ends where it has arrived, and one that has not is left out.
@@ -162,12 +180,12 @@ fn messages(lines: &mut Lines, recording: &Recording, sample: Sample) {
             continue;
         };
         let kind = alias(Activity::Send(message.kind));
-        let (from, to) = (message.from + 1, message.to + 1);
-        let (sent, bytes) = (Seconds(message.sent), message.bytes);
-        let start = format_args!("{START_LINK} {sent} L r {kind} {from} {number:x} {bytes}");
+        let (from, to) = (node(message.from as usize), node(message.to as usize));
+        let (sent, key, bytes) = (Seconds(message.sent), Alias(number), message.bytes);
+        let start = format_args!("{START_LINK} {sent} L {RUN} {kind} {from} {key} {bytes}");
         lines.add(message.sent, 2, start);
         let end_s = Seconds(end);
-        lines.add(end, 3, format_args!("{END_LINK} {end_s} L r {kind} {to} {number:x}"));
+        lines.add(end, 3, format_args!("{END_LINK} {end_s} L {RUN} {kind} {to} {key}"));
     }
 }
 
@@ -215,6 +233,29 @@ fn colour(activity: Activity) -> &'static str {
     }
 }
 
+/// The container of a node.
+fn node(rank: usize) -> Alias {
+    Alias(rank + 2)
+}
+
+/// A number as a short name, the lowest digit first.
+#[derive(Clone, Copy)]
+struct Alias(usize);
+
+impl fmt::Display for Alias {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        const DIGITS: &[u8; 62] = b"0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+        let mut rest = self.0;
+        loop {
+            f.write_char(DIGITS[rest % DIGITS.len()].into())?;
+            rest /= DIGITS.len();
+            if rest == 0 {
+                return Ok(());
+            }
+        }
+    }
+}
+
 /// A time in seconds, to the nanosecond below, without zeros at the end.
 struct Seconds(Time);
 
@@ -234,7 +275,16 @@ impl fmt::Display for Seconds {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+
     use super::*;
+
+    #[test]
+    fn no_two_names_are_alike() {
+        let names: BTreeSet<String> = (0..10_000).map(|n| Alias(n).to_string()).collect();
+        assert_eq!(names.len(), 10_000);
+        assert!(names.iter().all(|name| name.len() <= 3));
+    }
 
     #[test]
     fn seconds_are_exact_and_short() {

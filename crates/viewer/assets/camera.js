@@ -1,6 +1,6 @@
 // The camera of the 3D view: around a point, or on foot.
 
-const FIELD_OF_VIEW = Math.PI / 5;
+const FIELD_OF_VIEW = Math.PI / 6; // as radiosity/src/camera.rs
 
 class Camera {
   constructor(scene) {
@@ -33,7 +33,7 @@ class Camera {
       const least = Math.min(...corners.map((c) => dot(c, axis) + slope * dot(c, forward)));
       return { distance: (most - least) / (2 * slope), shift: (most + least) / 2 };
     };
-    const slope = Math.tan(FIELD_OF_VIEW / 2) * 0.97;
+    const slope = Math.tan(FIELD_OF_VIEW / 2) * 0.96;
     const across = side(right, slope * aspect);
     const upward = side(cross(right, forward), slope);
     this.distance = Math.max(across.distance, upward.distance);

@@ -101,12 +101,14 @@ class LightPanel {
     this.redraw();
   }
 
-  /** What false colours mean: the shader goes from 5 stops below middle grey to 4 above. */
+  /** What colours mean, so that the same picture can be had elsewhere (`virtwall render --exposure`); the shader's
+   *  false colours go from 5 stops below middle grey to 4 above. */
   tellScale() {
     const { tone, middle } = this.picture;
-    const from = (middle * 2 ** -5).toPrecision(2);
-    const to = (middle * 2 ** 4).toPrecision(2);
-    byId("scale").textContent = tone === 2 ? `From ${from} W/m² (black) over blue, red and yellow to ${to} W/m² (white), logarithmic.` : "";
+    const stops = (by) => (middle * 2 ** by).toPrecision(2);
+    const grey = `Middle grey is ${Number(middle.toPrecision(5))} W/m².`;
+    const heat = `From ${stops(-5)} W/m² (black) over blue, red and yellow to ${stops(4)} W/m² (white), logarithmic.`;
+    byId("scale").textContent = [grey, grey, heat, ""][tone];
   }
 
   colours(kind) {

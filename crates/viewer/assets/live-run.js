@@ -1,5 +1,8 @@
 // A run that is under way: it grows by the parts that viewer/src/broadcast.rs tells.
 
+const SAMPLES = 10; // of energy, a part
+const MOST_SAMPLES = 1000;
+
 /** Numbers to which more are added; what lies beyond `length` is room. */
 class Growing {
   constructor(Kind) {
@@ -59,7 +62,7 @@ class LiveRun extends Run {
     this.layOut();
     /** Energy at the front, for the course of it. */
     this.front = new Light(this);
-    this.course = [this.sample()];
+    this.course = [{ time: 0, ...this.front.energy }];
   }
 
   /** One part more. */
@@ -151,13 +154,19 @@ class LiveRun extends Run {
       this.shotEnds[i] = spans.to[span];
     });
     this.spans = spans;
-    if (this.front && this.front.goTo(end)) this.course.push(this.sample());
-    // Enough to draw: what lies between may go.
-    if (this.course?.length > 800) this.course = this.course.filter((_, i) => i % 2 === 0);
+    if (this.front) this.followEnergy();
   }
 
-  sample() {
-    return { time: this.end, ...this.front.energy };
+  /** Energy from where it was looked at last to the end. */
+  followEnergy() {
+    const { time } = this.course[this.course.length - 1];
+    for (let i = 1; i <= SAMPLES; i++) {
+      const now = time + ((this.end - time) * i) / SAMPLES;
+      this.front.goTo(now);
+      this.course.push({ time: now, ...this.front.energy });
+    }
+    // Enough to draw: what lies between may go.
+    if (this.course.length > MOST_SAMPLES) this.course = this.course.filter((_, i) => i % 2 === 0 || i + 1 === this.course.length);
   }
 }
 

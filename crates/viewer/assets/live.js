@@ -7,7 +7,9 @@ class LiveViewer extends Viewer {
     super(index);
     this.playing = true;
     this.progress = { ended: 0, under_way: [] };
+    byId("viewer-title").textContent = "Runs under way";
     byId("quality").closest("figure").hidden = true;
+    byId("energy").closest("figure").className = "panel wide-panel";
     byId("critical").closest("label").hidden = true;
     byId("colour").querySelector("[value=missing]").remove();
     this.tellButton();
@@ -31,7 +33,7 @@ class LiveViewer extends Viewer {
     on("part", (data) => this.part(data));
     on("cut", () => this.say("This run is too large to be followed further here: what is shown ends before it does."));
     on("end", (data) => this.ended(Number(data)));
-    on("finished", () => this.finished());
+    source.addEventListener("finished", () => this.finished());
     source.addEventListener("error", () => this.say("No connection to the simulation. What is shown is what it has told so far."));
   }
 
@@ -89,18 +91,20 @@ class LiveViewer extends Viewer {
     else if (this.chosen) this.connect("");
   }
 
-  /** What is served now is the report. */
-  finished() {
+  /** What is served now is the report: it is fetched at once, since nobody knows for how long. */
+  async finished() {
     this.source.close();
-    this.over = true;
-    if (this.playing) this.toReport();
-    else this.say("All runs have ended. Press Live to see the report.");
+    this.report = await (await fetch("")).text();
+    if (this.playing) return this.toReport();
+    await this.work;
+    this.say("All runs have ended. Press Live to see the report.");
   }
 
-  async toReport() {
-    const served = await fetch("", { method: "HEAD" }).catch(() => null);
-    if (served) location.reload();
-    else this.say("All runs have ended, and the report is no longer served here: it is report.html among the results.");
+  /** The page becomes the report. */
+  toReport() {
+    document.open();
+    document.write(this.report);
+    document.close();
   }
 
   tellRuns(runs) {
@@ -142,7 +146,7 @@ class LiveViewer extends Viewer {
 
   /** The page goes on, or stands still; the simulation knows nothing of it. */
   play(on) {
-    if (this.over) return this.toReport();
+    if (this.report) return this.toReport();
     this.playing = on;
     this.tellButton();
     if (!on || !this.state.run) return;

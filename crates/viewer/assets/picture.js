@@ -8,56 +8,63 @@ class Picture {
     if (!gl) throw new Error("this browser shows no WebGL2");
     this.surface = shaders(gl, SURFACE_VERTEX, SURFACE_FRAGMENT);
     this.lines = shaders(gl, LINE_VERTEX, LINE_FRAGMENT);
-    this.weld();
     this.upload();
     this.boxes();
     Object.assign(this, { tone: 0, middle: 1, ceiling: Infinity, smooth: true });
   }
 
-  /** Corners of patches of one polygon that lie in one place count as one: what smooth shading needs. */
-  weld() {
-    const { scene } = this;
-    const known = new Map();
-    this.cornerOf = new Uint32Array(scene.corners.length / 3);
-    for (let patch = 0; patch < scene.patches; patch++) {
-      for (let i = scene.cornerStarts[patch]; i < scene.cornerStarts[patch + 1]; i++) {
-        const [x, y, z] = scene.corners.subarray(3 * i, 3 * i + 3);
-        const key = `${scene.polygons[patch]},${x},${y},${z}`;
-        if (!known.has(key)) known.set(key, known.size);
-        this.cornerOf[i] = known.get(key);
-      }
-    }
-    this.places = known.size;
-  }
-
-  /** Geometry, and an empty table of colours. */
+  /** Triangles around the middle of each patch, as in radiosity/src/mesh.rs; an empty table of colours. */
   upload() {
     const { gl, scene } = this;
-    const count = scene.corners.length / 3;
-    const patchOf = new Uint32Array(count);
+    const { patches, places, corners, cornerStarts } = scene;
+    this.middles = places.length / 3; // the texels of middles come after those of places
+    const count = corners.length + patches;
+    const [points, patchOf, texelOf] = [new Float32Array(3 * count), new Uint32Array(count), new Uint32Array(count)];
     const triangles = [];
-    this.firstTriangle = new Uint32Array(scene.patches + 1);
-    for (let patch = 0; patch < scene.patches; patch++) {
-      const [from, to] = [scene.cornerStarts[patch], scene.cornerStarts[patch + 1]];
-      patchOf.fill(patch, from, to);
-      for (let i = from + 2; i < to; i++) triangles.push(from, i - 1, i);
+    this.firstTriangle = new Uint32Array(patches + 1);
+    for (let patch = 0, vertex = 0; patch < patches; patch++) {
+      const [from, to, middle] = [cornerStarts[patch], cornerStarts[patch + 1], vertex];
+      points.set(this.alongEdges(patch, places, 3), 3 * vertex);
+      texelOf[vertex++] = this.middles + patch;
+      for (let i = from; i < to; i++, vertex++) {
+        points.set(places.subarray(3 * corners[i], 3 * corners[i] + 3), 3 * vertex);
+        texelOf[vertex] = corners[i];
+        triangles.push(middle, vertex, i + 1 < to ? vertex + 1 : middle + 1);
+      }
+      patchOf.fill(patch, middle, vertex);
       this.firstTriangle[patch + 1] = triangles.length;
     }
     this.mesh = gl.createVertexArray();
     gl.bindVertexArray(this.mesh);
-    this.attribute(0, scene.corners, 3);
+    this.attribute(0, points, 3);
     this.attribute(1, patchOf, 0);
-    this.attribute(2, this.cornerOf, 0);
+    this.attribute(2, texelOf, 0);
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
     gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, Uint32Array.from(triangles), gl.STATIC_DRAW);
     gl.bindVertexArray(null);
-    this.rows = Math.ceil(Math.max(this.places, scene.patches, 1) / WIDTH);
+    this.rows = Math.ceil((this.middles + patches + 1) / WIDTH);
     this.colours = new Float32Array(4 * WIDTH * this.rows);
     gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
     for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) {
       gl.texParameteri(gl.TEXTURE_2D, filter, gl.NEAREST);
     }
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32F, WIDTH, this.rows, 0, gl.RGBA, gl.FLOAT, null);
+  }
+
+  /** The mean, along the edges of a patch, of three values a corner that lie `stride` apart. */
+  alongEdges(patch, values, stride) {
+    const { places, corners, cornerStarts } = this.scene;
+    const [from, to] = [cornerStarts[patch], cornerStarts[patch + 1]];
+    const sum = [0, 0, 0];
+    let length = 0;
+    for (let i = from; i < to; i++) {
+      const [a, b] = [corners[i], corners[i + 1 < to ? i + 1 : from]];
+      const edge = Math.hypot(places[3 * a] - places[3 * b], places[3 * a + 1] - places[3 * b + 1],
+        places[3 * a + 2] - places[3 * b + 2]);
+      for (let k = 0; k < 3; k++) sum[k] += ((values[stride * a + k] + values[stride * b + k]) / 2) * edge;
+      length += edge;
+    }
+    return length > 0 ? sum.map((x) => x / length) : sum;
   }
 
   /** An attribute of corners: single-precision vectors, or whole numbers where `size` is 0. */
@@ -93,25 +100,27 @@ class Picture {
     this.gl.bindVertexArray(null);
   }
 
-  /** Takes colours, three numbers a patch; smooth ones are means of the patches around a corner. */
+  /** Takes colours, three numbers a patch; smooth ones are means, by area, of the patches around a corner. */
   paint(values) {
-    const { scene, colours, cornerOf, gl } = this;
+    const { scene: { patches, areas, corners, cornerStarts }, colours, gl, middles } = this;
     if (!this.smooth) {
-      for (let patch = 0; patch < scene.patches; patch++) {
+      for (let patch = 0; patch < patches; patch++) {
         for (let colour = 0; colour < 3; colour++) colours[4 * patch + colour] = values[3 * patch + colour];
       }
     } else {
       colours.fill(0);
-      for (let patch = 0; patch < scene.patches; patch++) {
-        for (let i = scene.cornerStarts[patch]; i < scene.cornerStarts[patch + 1]; i++) {
-          const place = 4 * cornerOf[i];
-          for (let colour = 0; colour < 3; colour++) colours[place + colour] += values[3 * patch + colour];
-          colours[place + 3]++;
+      for (let patch = 0; patch < patches; patch++) {
+        const area = areas[patch];
+        for (let i = cornerStarts[patch]; i < cornerStarts[patch + 1]; i++) {
+          const place = 4 * corners[i];
+          for (let colour = 0; colour < 3; colour++) colours[place + colour] += area * values[3 * patch + colour];
+          colours[place + 3] += area;
         }
       }
-      for (let i = 0; i < 4 * this.places; i += 4) {
+      for (let i = 0; i < 4 * middles; i += 4) {
         for (let colour = 0; colour < 3; colour++) colours[i + colour] /= colours[i + 3];
       }
+      for (let patch = 0; patch < patches; patch++) colours.set(this.alongEdges(patch, colours, 4), 4 * (middles + patch));
     }
     gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, WIDTH, this.rows, gl.RGBA, gl.FLOAT, colours);
   }
@@ -120,7 +129,7 @@ class Picture {
   draw(camera, environments, chosen, showBoxes) {
     const { gl, canvas } = this;
     gl.viewport(0, 0, canvas.width, canvas.height);
-    gl.clearColor(0.07, 0.075, 0.085, 1);
+    gl.clearColor(0.112, 0.112, 0.112, 1);
     this.drawSurfaces(camera, environments, this.tone);
     const { program, uniforms } = this.lines;
     gl.useProgram(program);

@@ -18,20 +18,21 @@ class Scene {
     this.patchStarts = starts(columns.ints());
     this.polygons = columns.steps();
     this.cornerStarts = starts(columns.ints());
-    this.corners = this.unfold([columns.steps(), columns.steps(), columns.steps()]);
+    this.corners = Uint32Array.from(columns.steps());
+    this.places = this.unfold([columns.steps(), columns.steps(), columns.steps()]);
     this.areas = columns.floats();
     this.patches = this.polygons.length;
     this.environments = this.boxes.length;
   }
 
-  /** Corners in metres from 16 bits an axis. */
+  /** Places of corners in metres from 16 bits an axis. */
   unfold(axes) {
-    const corners = new Float32Array(3 * axes[0].length);
+    const places = new Float32Array(3 * axes[0].length);
     for (let axis = 0; axis < 3; axis++) {
       const step = (this.high[axis] - this.low[axis]) / 65535;
-      axes[axis].forEach((value, i) => (corners[3 * i + axis] = this.low[axis] + step * value));
+      axes[axis].forEach((value, i) => (places[3 * i + axis] = this.low[axis] + step * value));
     }
-    return corners;
+    return places;
   }
 
   material(patch) {

@@ -8,6 +8,8 @@ class Timeline {
   constructor(state) {
     this.state = state;
     this.canvas = byId("timeline");
+    // In pixels, without the gutter; of a lane. They are asked for too often to ask the page.
+    [this.width, this.lane] = [1, 1];
     state.onChange((names) => {
       if (names.has("time") && !names.has("window")) this.follow();
       if (["window", "choice", "run", "grown"].some((name) => names.has(name))) this.redraw();
@@ -114,16 +116,8 @@ class Timeline {
     else if (time > to) this.show(time - (to - from) * 0.1, time + (to - from) * 0.9);
   }
 
-  get width() {
-    return this.canvas.clientWidth - GUTTER;
-  }
-
   get lanes() {
     return this.state.run.nodes;
-  }
-
-  get lane() {
-    return (this.canvas.clientHeight - RULER) / this.lanes;
   }
 
   x(time) {
@@ -162,7 +156,9 @@ class Timeline {
   }
 
   draw() {
-    const { context, height } = fit(this.canvas);
+    const { context, width, height } = fit(this.canvas);
+    this.width = width - GUTTER;
+    this.lane = (height - RULER) / this.lanes;
     this.colours = Object.fromEntries(
       [...DOING.map(({ key }) => key), "waiting", "text", "faint", "ruler", "accent", "path"].map((key) => [key, ink(key)]));
     context.font = "11px system-ui, sans-serif";

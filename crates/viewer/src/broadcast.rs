@@ -146,7 +146,10 @@ impl Broadcast {
 
 impl Observer for Broadcast {
     fn activity(&mut self, rank: Rank, activity: Activity, from: Time, to: Time) {
-        self.now = self.now.max(to);
+        // The run's time is that of its compute nodes.
+        if rank + 1 < self.lanes.len() {
+            self.now = self.now.max(to);
+        }
         let lane = &mut self.lanes[rank];
         match activity {
             // With its shot, which is told of when all its kernels have run.

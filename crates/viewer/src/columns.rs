@@ -54,6 +54,36 @@ impl Columns {
     }
 }
 
+/// Reads a block, as the page does.
+#[cfg(test)]
+pub(crate) struct Reader {
+    bytes: std::vec::IntoIter<u8>,
+}
+
+#[cfg(test)]
+impl Reader {
+    pub fn unpack(block: &str) -> Reader {
+        let packed = STANDARD.decode(block).unwrap();
+        let bytes = miniz_oxide::inflate::decompress_to_vec_zlib(&packed).unwrap();
+        Reader { bytes: bytes.into_iter() }
+    }
+
+    fn number(&mut self) -> u64 {
+        let byte = u64::from(self.bytes.next().unwrap());
+        if byte < 128 { byte } else { byte - 128 + 128 * self.number() }
+    }
+
+    pub fn ints(&mut self) -> Vec<u64> {
+        (0..self.number()).map(|_| self.number()).collect()
+    }
+
+    pub fn floats(&mut self) -> Vec<f32> {
+        let count = self.number();
+        let mut float = || f32::from_le_bytes([0; 4].map(|_| self.bytes.next().unwrap()));
+        (0..count).map(|_| float()).collect()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

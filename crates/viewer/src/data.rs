@@ -1,7 +1,8 @@
 //! What the page's program reads: blocks of data, and an index of what lies where.
 
 use std::sync::Arc;
-use std::thread;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread::{self, ScopedJoinHandle};
 
 use serde_json::{Value, json};
 use virtwall::Problem;
@@ -15,15 +16,18 @@ use crate::scene::{Shots, geometry};
 /// The most messages of a run that a report holds.
 const MOST_MESSAGES: usize = 60_000;
 
+/// Makes the columns of a block, on whatever thread.
+type Block<'a> = Box<dyn Fn() -> Columns + Sync + 'a>;
+
 /// The blocks of a page, by their names, and what lies where.
-pub(crate) struct Data {
+pub(crate) struct Data<'a> {
     pub index: Value,
-    blocks: Vec<(String, Columns)>,
+    blocks: Vec<(String, Block<'a>)>,
 }
 
-impl Data {
+impl<'a> Data<'a> {
     /// Of as many of the runs as `limit` bytes have room for, about.
-    pub fn of(told: &[Told], limit: usize) -> Data {
+    pub fn of(told: &'a [Told], limit: usize) -> Data<'a> {
         let shown = affordable(told, limit);
         let recorded = told.len();
         let told: Vec<&Told> =
@@ -41,7 +45,7 @@ impl Data {
             let mine: Vec<usize> = (0..told.len())
                 .filter(|&run| Arc::ptr_eq(told[run].reel.problem, problem))
                 .collect();
-            let shots = Shots::of(mine.iter().map(|&run| told[run].reel.film));
+            let shots = Arc::new(Shots::of(mine.iter().map(|&run| told[run].reel.film)));
             scenes.push(data.scene(number, told[mine[0]], &shots));
             for run in mine {
                 runs[run] = data.run(run, told[run], number, &shots);
@@ -57,25 +61,35 @@ impl Data {
     }
 
     /// The blocks of a scene.
-    fn scene(&mut self, number: usize, one: &Told, shots: &Shots) -> Value {
+    fn scene(&mut self, number: usize, one: &'a Told, shots: &Arc<Shots<'a>>) -> Value {
         let problem = one.reel.problem;
         let reference = one.reel.answer.as_ref().map(|answer| {
-            let mut columns = Columns::default();
-            columns.floats(answer.iter().flat_map(|rgb| rgb.to_array()));
-            self.add(format!("reference-{number}"), columns)
+            self.add(format!("reference-{number}"), || {
+                let mut columns = Columns::default();
+                columns.floats(answer.iter().flat_map(|rgb| rgb.to_array()));
+                columns
+            })
         });
+        let shots = Arc::clone(shots);
         json!({
             "name": one.reel.scene,
-            "block": self.add(format!("scene-{number}"), geometry(problem)),
-            "shots": self.add(format!("shots-{number}"), shots.columns(problem)),
+            "block": self.add(format!("scene-{number}"), || geometry(problem)),
+            "shots": self.add(format!("shots-{number}"), move || shots.columns(problem)),
             "reference": reference,
         })
     }
 
     /// The block of a run.
-    fn run(&mut self, number: usize, told: &Told, scene: usize, shots: &Shots) -> Value {
+    fn run(
+        &mut self,
+        number: usize,
+        told: &'a Told,
+        scene: usize,
+        shots: &Arc<Shots<'a>>,
+    ) -> Value {
         let Told { reel, path, .. } = told;
-        let columns = run::columns(reel.film, &reel.owners, shots, path, every(told));
+        let shots = Arc::clone(shots);
+        let columns = move || run::columns(reel.film, &reel.owners, &shots, path, every(told));
         json!({
             "label": reel.label,
             "group": reel.group,
@@ -87,33 +101,34 @@ impl Data {
         })
     }
 
-    fn add(&mut self, name: String, columns: Columns) -> String {
-        self.blocks.push((name.clone(), columns));
+    fn add(&mut self, name: String, block: impl Fn() -> Columns + Sync + 'a) -> String {
+        self.blocks.push((name.clone(), Box::new(block)));
         name
     }
 
-    /// All blocks as elements of the page; they are packed side by side.
+    /// All blocks as elements of the page, made side by side.
     pub fn packed(&self) -> String {
-        let threads = thread::available_parallelism().map_or(1, |threads| threads.get());
-        let part = self.blocks.len().div_ceil(threads).max(1);
-        let pack = |blocks: &[(String, Columns)]| -> String {
-            let element = |(name, columns): &(String, Columns)| {
-                let packed = columns.pack();
-                format!(
-                    "<script type=\"application/octet-stream\" id=\"{name}\">{packed}</script>\n"
-                )
-            };
-            blocks.iter().map(element).collect()
+        let element = |(name, block): &(String, Block)| {
+            let packed = block().pack();
+            format!("<script type=\"application/octet-stream\" id=\"{name}\">{packed}</script>\n")
         };
-        thread::scope(|scope| {
-            let workers: Vec<_> =
-                self.blocks.chunks(part).map(|blocks| scope.spawn(move || pack(blocks))).collect();
-            let texts = workers.into_iter().map(|worker| worker.join());
+        let next = AtomicUsize::new(0);
+        let work = || {
+            let numbers = std::iter::repeat_with(|| next.fetch_add(1, Ordering::Relaxed));
+            let mine = numbers.map_while(|n| Some((n, element(self.blocks.get(n)?))));
+            mine.collect::<Vec<(usize, String)>>()
+        };
+        let threads = thread::available_parallelism().map_or(1, |threads| threads.get());
+        let mut made: Vec<(usize, String)> = thread::scope(|scope| {
+            let workers: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
             // A packer cannot panic; if one does, so does this.
-            texts
-                .map(|text| text.unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
-                .collect()
-        })
+            let join = |worker: ScopedJoinHandle<Vec<_>>| {
+                worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+            };
+            workers.into_iter().flat_map(join).collect()
+        });
+        made.sort_unstable_by_key(|&(number, _)| number);
+        made.into_iter().map(|(_, text)| text).collect()
     }
 }
 

@@ -19,10 +19,13 @@ pub(crate) struct Ledger {
     pub after: f64,
 }
 
+fn is_shot(activity: Activity) -> bool {
+    matches!(activity, Activity::LocalShot | Activity::ReceivedShot)
+}
+
 impl Ledger {
     /// Of one node, until `end`, when the last node knew that the run was over.
     pub fn of(node: &NodeRecord, end: Time) -> Ledger {
-        let is_shot = |a: Activity| matches!(a, Activity::LocalShot | Activity::ReceivedShot);
         let shots = || node.spans().filter(|span| is_shot(span.activity));
         let first = shots().map(|span| span.from).next().unwrap_or(Time::MAX);
         let last = shots().map(|span| span.to).last().unwrap_or(Time::ZERO);
@@ -89,6 +92,8 @@ pub(crate) struct Account {
     pub last: (usize, Time),
     /// Compute nodes that shot patches of their own.
     pub with_sources: usize,
+    /// Seconds of shots in each environment.
+    pub environments: Vec<f64>,
     /// Seconds of the critical path by [`Doing`].
     pub path: [f64; Doing::COUNT],
 }
@@ -120,9 +125,27 @@ impl Account {
             node.shots.iter().any(|shot| shot.environment == shot.source_environment)
         };
         let with_sources = compute.iter().filter(local).count();
+        let environments = environments(compute);
         let mut seconds = [Duration::ZERO; Doing::COUNT];
         path.iter().for_each(|link| seconds[link.doing as usize] += link.to - link.from);
         let path = seconds.map(Duration::as_seconds_f64);
-        Account { nodes, all, busiest, last_shot, last, with_sources, path }
+        Account { nodes, all, busiest, last_shot, last, with_sources, environments, path }
     }
+}
+
+/// Seconds of shots in each environment, wherever it lies.
+fn environments(nodes: &[NodeRecord]) -> Vec<f64> {
+    let mut seconds = Vec::new();
+    for node in nodes {
+        let mut shots = node.shots.iter().peekable();
+        for span in node.spans().filter(|span| is_shot(span.activity)) {
+            // Kernels that take no time leave no span.
+            while shots.next_if(|shot| shot.at < span.to).is_some() {}
+            let Some(shot) = shots.next() else { break };
+            let environment = shot.environment as usize;
+            seconds.resize(seconds.len().max(environment + 1), 0.0);
+            seconds[environment] += (span.to - span.from).as_seconds_f64();
+        }
+    }
+    seconds
 }

@@ -96,9 +96,14 @@ fn groups<'a>(told: &'a [Told<'a>]) -> Vec<Vec<&'a Told<'a>>> {
     groups
 }
 
+/// What one must know to read the answers.
+const WORDS: &str = "<p>A <em>node</em> is a processor of the machine and holds <em>local environments</em>, boxes \
+    that the scene is cut into. In a <em>local shot</em> it casts the light of a patch of its own; what leaves the box \
+    goes on to its neighbours in messages, and each continues it in a <em>received shot</em>.</p>\n";
+
 /// For each group what its run on the most processors tells, and the table of all.
 fn answers(told: &[Told]) -> String {
-    let mut text = String::new();
+    let mut text = WORDS.to_owned();
     for group in groups(told) {
         let Some(most) = group.last() else { continue };
         let alone = group.first().filter(|told| told.processors() == 1).copied();

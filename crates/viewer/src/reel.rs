@@ -28,6 +28,8 @@ pub struct Reel<'a> {
     /// The radiosity that each patch should have, W/m², where that is known; the same for all runs of a
     /// problem.
     pub answer: Option<Arc<Vec<Rgb>>>,
+    /// The speed-up that was published for such a run, if one was.
+    pub published: Option<f64>,
     /// What happened.
     pub film: &'a Film,
 }

@@ -77,15 +77,22 @@ fn is_shot(activity: Activity) -> bool {
 }
 
 /// What a node did but for waiting, with exactly one span a shot, be it without length.
-fn told(node: &NodeRecord) -> Vec<Span> {
+pub(crate) fn told(node: &NodeRecord) -> Vec<Span> {
     let mut shots = node.shots.iter().peekable();
     let mut told = Vec::new();
-    for span in node.spans() {
+    let mut begun = None;
+    for mut span in node.spans() {
         // Kernels that take no time leave no span.
         while let Some(shot) = shots.next_if(|shot| shot.at <= span.from) {
             told.push(instant(shot));
         }
         if is_shot(span.activity) {
+            span.from = begun.take().unwrap_or(span.from);
+            // What caches miss is a kernel's time that follows it.
+            if shots.peek().is_some_and(|shot| shot.at > span.to) {
+                begun = Some(span.from);
+                continue;
+            }
             shots.next();
         }
         if span.activity != Activity::Wait

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use radiosity::Rgb;
+use radiosity::{Bounds, Mesh, Rgb, Shading};
 use virtwall::{Problem, ShotKey};
 
 use crate::columns::Columns;
@@ -25,22 +25,35 @@ pub(crate) fn geometry(problem: &Problem) -> Columns {
     let patches = || problem.environments.iter().flat_map(|e| e.patches.iter());
     columns.ints(problem.environments.iter().map(|e| e.patches.len() as u64));
     columns.steps(patches().map(|patch| i64::from(patch.polygon)));
-    let outlines: Vec<_> = problem
-        .environments
-        .iter()
-        .flat_map(|e| (0..e.patches.len() as u32).map(|patch| e.outline(&problem.space, patch)))
-        .collect();
-    columns.ints(outlines.iter().map(|outline| outline.len() as u64));
-    for axis in 0..3 {
-        let per_metre = STEPS / (high[axis] - low[axis]).max(f64::MIN_POSITIVE);
-        let coded = outlines.iter().flatten().map(|p| ((p[axis] - low[axis]) * per_metre).round());
-        columns.steps(coded.map(|step| step.clamp(0.0, STEPS) as i64));
-    }
+    corners(problem, &mut columns);
     let areas = problem.environments.iter();
     columns.floats(
         areas.flat_map(|e| (0..e.patches.len() as u32).map(|patch| e.radiosity_area(patch))),
     );
     columns
+}
+
+/// Where corners of patches are, each place once for those that smooth shading takes together, and the
+/// corners of each patch.
+fn corners(problem: &Problem, columns: &mut Columns) {
+    let mesh = Mesh::new(&problem.space, &problem.environments, Shading::Smooth);
+    let Bounds { min: low, max: high } = problem.space.scene.bounds;
+    // Numbered in the order in which patches have them.
+    let mut numbers = vec![None; mesh.positions().len()];
+    let mut places = Vec::new();
+    let corners = || mesh.fans().map(|fan| fan.get(1..).unwrap_or_default());
+    columns.ints(corners().map(|corners| corners.len() as u64));
+    columns.steps(corners().flatten().map(|&vertex| {
+        *numbers[vertex as usize].get_or_insert_with(|| {
+            places.push(mesh.positions()[vertex as usize]);
+            places.len() as i64 - 1
+        })
+    }));
+    for axis in 0..3 {
+        let per_metre = STEPS / (high[axis] - low[axis]).max(f64::MIN_POSITIVE);
+        let coded = places.iter().map(|p| ((p[axis] - low[axis]) * per_metre).round());
+        columns.steps(coded.map(|step| step.clamp(0.0, STEPS) as i64));
+    }
 }
 
 /// Shots of several runs, each different one once.

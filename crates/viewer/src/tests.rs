@@ -9,13 +9,16 @@ use desim::{Duration, Time};
 use multicomputer::Machine;
 use radiosity::{Hemisphere, HemisphereKind, PatchSize};
 use virtwall::{
-    KeptShots, Mapping, Order, Outcome, Problem, ProblemOptions, Rules, Run, Selection, Shooting,
-    Ties, simulate_observed,
+    KeptShots, Mapping, Observers, Order, Outcome, Problem, ProblemOptions, Rules, Run, Selection,
+    SharedObserver, Shooting, Ties, simulate_observed,
 };
 
+use crate::broadcast::{Audience, Broadcast};
+use crate::columns::Reader;
 use crate::film::{Doing, Film};
 use crate::page::Recorded;
 use crate::reel::{Reel, Told};
+use crate::run::{ns, told};
 
 const PROCESSORS: usize = 5;
 
@@ -24,8 +27,12 @@ fn root() -> &'static Path {
 }
 
 fn machine() -> Machine {
-    let path = root().join("machines/paragon-xps.json");
-    Machine::from_json(&std::fs::read_to_string(path).unwrap(), "paragon-xps.json").unwrap()
+    machine_of("paragon-xps.json")
+}
+
+fn machine_of(name: &str) -> Machine {
+    let path = root().join("machines").join(name);
+    Machine::from_json(&std::fs::read_to_string(path).unwrap(), name).unwrap()
 }
 
 /// A room with one lamp, cut into eight.
@@ -41,6 +48,17 @@ fn problem() -> Arc<Problem> {
 }
 
 fn film(problem: &Arc<Problem>, processors: usize) -> (Outcome, Film) {
+    let film = Rc::new(RefCell::new(Film::new(problem, processors)));
+    let outcome = observed(problem, processors, &machine(), film.clone());
+    (outcome, Rc::into_inner(film).unwrap().into_inner())
+}
+
+fn observed(
+    problem: &Arc<Problem>,
+    processors: usize,
+    machine: &Machine,
+    observer: SharedObserver,
+) -> Outcome {
     let rules = Rules {
         selection: Selection::Energy,
         ties: Ties::ReceivedFirst,
@@ -61,11 +79,7 @@ fn film(problem: &Arc<Problem>, processors: usize) -> (Outcome, Film) {
         kept: Arc::new(KeptShots::new(1 << 30)),
         on_shot: Arc::new(|| ()),
     };
-    let film = Rc::new(RefCell::new(Film::new(problem, processors)));
-    let machine = machine();
-    let observer = Some(film.clone() as _);
-    let outcome = simulate_observed(&run, &machine, machine.network(), observer).unwrap();
-    (outcome, Rc::into_inner(film).unwrap().into_inner())
+    simulate_observed(&run, machine, machine.network(), Some(observer)).unwrap()
 }
 
 fn reel<'a>(problem: &'a Arc<Problem>, machine: &'a Machine, film: &'a Film) -> Reel<'a> {
@@ -77,6 +91,7 @@ fn reel<'a>(problem: &'a Arc<Problem>, machine: &'a Machine, film: &'a Film) -> 
         machine,
         owners: Mapping::Blocks.owners(problem.environments.len() as u32, film.processors()),
         answer: None,
+        published: None,
         film,
     }
 }
@@ -155,4 +170,87 @@ fn what_has_no_room_is_left_out_and_told() {
     let [all, ends] = [[true; 3], [true, false, true]];
     assert_eq!(shown, [all, ends, [true, false, false], [false; 3]]);
     assert!(Recorded::of(&reels, 0).data.contains("0 of 3 recorded runs are here"));
+}
+
+/// Asks for a part after every seventh shot.
+struct Listener {
+    shots: u64,
+    parts: Rc<RefCell<Vec<String>>>,
+}
+
+impl Audience for Listener {
+    fn is_due(&mut self) -> bool {
+        self.shots += 1;
+        self.shots.is_multiple_of(7)
+    }
+
+    fn receive(&mut self, part: String) {
+        self.parts.borrow_mut().push(part);
+    }
+}
+
+#[test]
+fn the_parts_of_a_run_are_the_whole() {
+    parts_are_the_whole(&machine(), PROCESSORS);
+    parts_are_the_whole(&machine_of("ultra1.json"), 1);
+}
+
+/// What is told of a run part by part is what was recorded of it.
+fn parts_are_the_whole(machine: &Machine, processors: usize) {
+    let problem = problem();
+    let parts = Rc::new(RefCell::new(Vec::new()));
+    let listener = Listener { shots: 0, parts: Rc::clone(&parts) };
+    let film = Rc::new(RefCell::new(Film::new(&problem, processors)));
+    let broadcast = Rc::new(RefCell::new(Broadcast::new(&problem, processors, listener)));
+    let observers = Observers(vec![film.clone(), broadcast.clone()]);
+    let outcome = observed(&problem, processors, machine, Rc::new(RefCell::new(observers)));
+    broadcast.borrow_mut().tell();
+
+    let film = film.borrow();
+    let recorded = film.recording.nodes.iter().map(|node| told(node).into_iter());
+    let expected: Vec<Vec<(u64, u64, u64)>> = recorded
+        .map(|spans| spans.map(|s| (Doing::of(s.activity) as u64, ns(s.from), ns(s.to))).collect())
+        .collect();
+    let mut spans = vec![Vec::new(); processors + 1];
+    let (mut ends, mut shots, mut hits) = (vec![0; processors + 1], Vec::new(), 0);
+    let (mut now, mut messages) = (0, 0);
+    for part in parts.borrow().iter() {
+        let mut part = Reader::unpack(part);
+        let at = part.ints()[0];
+        assert!(at >= now);
+        now = at;
+        let counts = part.ints();
+        let [kinds, gaps, lengths] = [0; 3].map(|_| part.ints());
+        let mut nth = 0;
+        for (node, count) in counts.into_iter().enumerate() {
+            for _ in 0..count {
+                let from = ends[node] + gaps[nth];
+                ends[node] = from + lengths[nth];
+                spans[node].push((kinds[nth], from, ends[node]));
+                nth += 1;
+            }
+        }
+        let [_, _, ranks] = [0; 3].map(|_| part.ints());
+        shots.extend(ranks);
+        let [_, _, _, _, _, _] = [0; 6].map(|_| part.ints());
+        part.floats();
+        part.floats();
+        part.ints();
+        hits += part.ints().into_iter().sum::<u64>();
+        let [_, _, _, _, _, _] = [0; 6].map(|_| part.ints());
+        messages += part.ints().len();
+    }
+    assert_eq!(spans, expected);
+    assert_eq!(now, ns(outcome.time));
+    let counts = outcome.counts;
+    assert_eq!(shots.len() as u64, counts.local_shots + counts.received_shots);
+    let spans = spans.iter().flatten().filter(|(doing, ..)| *doing <= Doing::ReceivedShot as u64);
+    assert_eq!(spans.count(), shots.len());
+    for (rank, beams) in film.beams.iter().enumerate() {
+        assert_eq!(shots.iter().filter(|&&shot| shot == rank as u64).count(), beams.len());
+    }
+    assert!(hits > 0);
+    let arrived = film.recording.messages.iter().filter(|message| message.arrived.is_some());
+    assert_eq!(messages, arrived.count());
+    assert!(parts.borrow().len() > 3);
 }

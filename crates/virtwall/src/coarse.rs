@@ -19,16 +19,17 @@ impl Problem {
         let face = Face { bounds: self.space.grid.bounds(block), side: through };
         let slack = self.space.scene.tolerance();
         let source = &parcel.source;
-        let [tangent, bitangent, normal] = self.hemisphere.frame(source.centre, source.normal);
+        let hemisphere = self.hemisphere_of(&parcel.mask);
+        let [tangent, bitangent, normal] = hemisphere.frame(source.centre, source.normal);
         let crosses = |pixel: &u32| {
-            let d = self.hemisphere.directions[*pixel as usize];
+            let d = hemisphere.directions[*pixel as usize];
             face.lets_in(source.centre, tangent * d.x + bitangent * d.y + normal * d.z, slack)
         };
         let mut cast = Mask::none(parcel.mask.pixels());
         parcel.mask.ones().filter(crosses).for_each(|pixel| cast.set(pixel));
         // At least those cross that have left; were it for rounding not so, all would be cast.
         let cast = if cast.is_empty() { parcel.mask.clone() } else { cast };
-        let form_factor = self.hemisphere.form_factor(&cast);
+        let form_factor = hemisphere.form_factor(&cast);
         if form_factor > 0.0 {
             parcel.source.power *= parcel.form_factor / form_factor;
             (parcel.mask, parcel.form_factor) = (cast, form_factor);

@@ -71,7 +71,7 @@ impl Footprint {
 
     /// What is there once on each node: the program and its table of directions.
     pub(crate) fn of_the_program(problem: &Problem) -> Footprint {
-        let directions = problem.hemisphere.pixels() as usize;
+        let directions = problem.hemispheres().map(|h| h.pixels() as usize).sum();
         Footprint::default().with(Thing::Program, 1).with(Thing::Direction, directions)
     }
 

@@ -31,7 +31,7 @@ impl Gathered {
         let mut pixels = 0;
         for (side, outgoing) in Side::ALL.into_iter().zip(&shot.outgoing) {
             let Some(outgoing) = outgoing else { continue };
-            let rays = problem.rays_of(source);
+            let rays = problem.rays_of(source, &parcel.mask);
             walls.gather(&around, side, source, rays, &outgoing.mask, |[patch, bin], weight| {
                 let nothing =
                     || Held { power: vec![Rgb::ZERO; walls.bins() as usize], sum: Rgb::ZERO };

@@ -31,6 +31,11 @@ pub struct Instant<'a> {
 }
 
 impl Instant<'_> {
+    /// The ambient term: what light that was not shot gives a surface that reflects all, W/m².
+    pub fn ambient(&self) -> Rgb {
+        ambient::term(self.problem, self.energy.unshot + self.energy.in_transit)
+    }
+
     /// Radiosity in W/m², by environment and patch, with the ambient term if the rules say so.
     pub fn radiosity(&self) -> impl Iterator<Item = impl Iterator<Item = Rgb>> {
         let Instant { energy, problem, light, .. } = self;
@@ -48,28 +53,52 @@ impl Instant<'_> {
     }
 }
 
-/// Follows the light of a run and shows it at the instants asked for.
-struct Follower<V> {
+/// The light of a run as it goes.
+pub(crate) struct Follower {
     problem: Arc<Problem>,
     /// By environment.
-    light: Vec<Light>,
+    pub light: Vec<Light>,
     energy: EnergyLedger,
     ambient: bool,
+}
+
+impl Follower {
+    pub fn new(run: &Run) -> Follower {
+        let problem = Arc::clone(&run.problem);
+        let light = problem.environments.iter();
+        let light = light.map(|geometry| Light::new(&problem.space, geometry)).collect();
+        let energy = EnergyLedger::at_first(problem.emitted_power());
+        Follower { problem, light, energy, ambient: run.rules.shooting.ambient }
+    }
+
+    pub fn selected(&mut self, source: &Parcel) {
+        self.energy.selected(source);
+    }
+
+    pub fn shot(&mut self, source: &Parcel, shot: &Shot, reflected: Rgb) {
+        self.energy.shot(source, shot, reflected);
+        self.light[source.environment as usize].receive(&source.source, shot);
+    }
+
+    pub fn instant(&self, time: Time) -> Instant<'_> {
+        let Follower { problem, light, energy, ambient } = self;
+        Instant { time, energy: *energy, problem, light, ambient: *ambient }
+    }
+}
+
+/// Shows the light of a run at the instants asked for.
+struct Visitor<V> {
+    follower: Follower,
     /// Instants to come, the next one last.
     times: Vec<Time>,
     visit: V,
 }
 
-impl<V: FnMut(Instant<'_>)> Follower<V> {
-    fn new(run: &Run, times: &[Time], visit: V) -> Follower<V> {
-        let problem = &run.problem;
-        let light = problem.environments.iter();
-        let light = light.map(|geometry| Light::new(&problem.space, geometry)).collect();
+impl<V: FnMut(Instant<'_>)> Visitor<V> {
+    fn new(run: &Run, times: &[Time], visit: V) -> Visitor<V> {
         let mut times = times.to_vec();
         times.sort_unstable_by(|one, other| other.cmp(one));
-        let energy = EnergyLedger::at_first(problem.emitted_power());
-        let ambient = run.rules.shooting.ambient;
-        Follower { problem: Arc::clone(problem), light, energy, ambient, times, visit }
+        Visitor { follower: Follower::new(run), times, visit }
     }
 
     /// Something happens now: shows the instants before.
@@ -81,21 +110,19 @@ impl<V: FnMut(Instant<'_>)> Follower<V> {
 
     fn show_next(&mut self) {
         let Some(time) = self.times.pop() else { return };
-        let Follower { problem, light, energy, ambient, .. } = self;
-        (self.visit)(Instant { time, energy: *energy, problem, light, ambient: *ambient });
+        (self.visit)(self.follower.instant(time));
     }
 }
 
-impl<V: FnMut(Instant<'_>)> Observer for Follower<V> {
+impl<V: FnMut(Instant<'_>)> Observer for Visitor<V> {
     fn selected(&mut self, now: Time, _: Rank, source: &Parcel) {
         self.pass(now);
-        self.energy.selected(source);
+        self.follower.selected(source);
     }
 
     fn shot(&mut self, now: Time, _: Rank, source: &Parcel, shot: &Shot, reflected: Rgb) {
         self.pass(now);
-        self.energy.shot(source, shot, reflected);
-        self.light[source.environment as usize].receive(&source.source, shot);
+        self.follower.shot(source, shot, reflected);
     }
 }
 
@@ -107,14 +134,14 @@ pub fn visit_instants(
     times: &[Time],
     visit: impl FnMut(Instant<'_>) + 'static,
 ) -> Result<Outcome, RunError> {
-    let follower = Rc::new(RefCell::new(Follower::new(run, times, visit)));
-    let observer: SharedObserver = follower.clone();
+    let visitor = Rc::new(RefCell::new(Visitor::new(run, times, visit)));
+    let observer: SharedObserver = visitor.clone();
     let outcome = simulate_observed(run, machine, network, Some(observer))?;
-    let mut follower = follower.borrow_mut();
-    while !follower.times.is_empty() {
-        follower.show_next();
+    let mut visitor = visitor.borrow_mut();
+    while !visitor.times.is_empty() {
+        visitor.show_next();
     }
-    drop(follower);
+    drop(visitor);
     Ok(outcome)
 }
 

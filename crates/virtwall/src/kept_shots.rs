@@ -274,7 +274,7 @@ impl Drop for Casting<'_> {
 
 fn cast(problem: &Problem, Parcel { environment, source, mask, .. }: &Parcel) -> Shot {
     let environment = &problem.environments[*environment as usize];
-    shoot(&problem.space, environment, problem.rays_of(source), source, mask)
+    shoot(&problem.space, environment, problem.rays_of(source, mask), source, mask)
 }
 
 impl ShotCounts {

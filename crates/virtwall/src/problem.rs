@@ -1,12 +1,13 @@
 //! A scene made ready: meshed, cut into environments, with its hemisphere.
 
 use radiosity::{
-    Bounds, DepthBits, Hemisphere, LocalEnvironment, Mask, Outgoing, PatchSize, Rgb, Scene, Shot,
-    Side, Source, Space, VirtualWalls,
+    Bounds, DepthBits, Hemisphere, HemisphereError, LocalEnvironment, Mask, Outgoing, PatchSize,
+    Refinement, Rgb, Scene, Shot, Side, Source, Space, VirtualWalls, Wanted,
 };
 use thiserror::Error;
 
 use crate::decomposition::Decomposition;
+use crate::ladder::Ladder;
 use crate::message::Parcel;
 use crate::wall_patch::WallPatch;
 
@@ -55,6 +56,10 @@ pub struct Problem {
     pub environments: Vec<LocalEnvironment>,
     /// The hemisphere over every source.
     pub hemisphere: Hemisphere,
+    /// Smaller ones over dimmer sources.
+    ladder: Ladder,
+    /// What a pilot run found of where the mesh is to be finer, if one was made.
+    pub refinement: Option<Refinement>,
     /// Virtual walls between environments; without them masks carry the light across.
     pub walls: Option<VirtualWalls>,
     /// Integers of masks, in a scene with participating media.
@@ -67,6 +72,7 @@ pub struct CutScene {
     decomposition: Decomposition,
     patch_size: PatchSize,
     hemisphere: Hemisphere,
+    refinement: Option<Refinement>,
 }
 
 impl CutScene {
@@ -88,7 +94,16 @@ impl CutScene {
         }
         let space = Space::new(scene, cells);
         let decomposition = Decomposition::new(cells, cut);
-        Ok(CutScene { space, decomposition, patch_size, hemisphere })
+        Ok(CutScene { space, decomposition, patch_size, hemisphere, refinement: None })
+    }
+
+    /// The same, its patches smaller where a pilot finds that this is wanted.
+    ///
+    /// # Errors
+    /// Those of [`Refinement::new`].
+    pub fn refined(self, wanted: Wanted) -> Result<CutScene, HemisphereError> {
+        let refinement = Refinement::new(&self.space, self.patch_size, wanted)?;
+        Ok(CutScene { refinement: Some(refinement), ..self })
     }
 
     /// How many environments there are.
@@ -99,14 +114,26 @@ impl CutScene {
     /// Mesh one of them.
     pub fn environment(&self, number: u32) -> LocalEnvironment {
         let block = self.decomposition.block(number);
-        LocalEnvironment::new(&self.space, block, self.patch_size)
+        match &self.refinement {
+            Some(refinement) => refinement.mesh(&self.space, block, self.patch_size),
+            None => LocalEnvironment::new(&self.space, block, self.patch_size),
+        }
     }
 
     /// The problem that all of them, by number, make up.
     pub fn with(self, environments: Vec<LocalEnvironment>) -> Problem {
-        let CutScene { space, decomposition, hemisphere, .. } = self;
-        let (walls, depth_bits) = (None, DepthBits::Sixteen);
-        Problem { space, decomposition, environments, hemisphere, walls, depth_bits }
+        let CutScene { space, decomposition, hemisphere, refinement, .. } = self;
+        let (ladder, walls, depth_bits) = (Ladder::default(), None, DepthBits::Sixteen);
+        Problem {
+            space,
+            decomposition,
+            environments,
+            hemisphere,
+            ladder,
+            refinement,
+            walls,
+            depth_bits,
+        }
     }
 }
 
@@ -128,9 +155,35 @@ impl Problem {
         Problem { depth_bits, ..self }
     }
 
-    /// The mask that a patch shoots with: all visible, nothing dimmed (§3.3).
-    pub(crate) fn clear_mask(&self) -> Mask {
-        let mask = Mask::all(self.hemisphere.pixels());
+    /// The same with these hemispheres over dimmer sources, each smaller than its own.
+    pub fn with_smaller_hemispheres(mut self, smaller: Vec<Hemisphere>) -> Problem {
+        let powers = self.environments.iter().flat_map(|environment| {
+            let patches = 0..environment.patches.len() as u32;
+            patches.map(|patch| environment.emitted_power(&self.space, patch).element_sum())
+        });
+        let brightest = powers.fold(0.0, f64::max);
+        self.ladder = Ladder::new(smaller, brightest / f64::from(self.hemisphere.pixels()));
+        self
+    }
+
+    /// The hemisphere over a source of so much power, W.
+    pub fn hemisphere_for(&self, power: Rgb) -> &Hemisphere {
+        self.ladder.rung_for(power).unwrap_or(&self.hemisphere)
+    }
+
+    /// The hemisphere that a mask belongs to.
+    pub fn hemisphere_of(&self, mask: &Mask) -> &Hemisphere {
+        self.ladder.rung_of(mask).unwrap_or(&self.hemisphere)
+    }
+
+    /// All hemispheres, the largest first.
+    pub(crate) fn hemispheres(&self) -> impl Iterator<Item = &Hemisphere> {
+        [&self.hemisphere].into_iter().chain(self.ladder.rungs())
+    }
+
+    /// The mask that a patch shoots so much power with, W: all visible, nothing dimmed (§3.3).
+    pub(crate) fn clear_mask(&self, power: Rgb) -> Mask {
+        let mask = Mask::all(self.hemisphere_for(power).pixels());
         let dims = !self.space.scene.media.is_empty() && self.walls.is_none();
         if dims { mask.with_depths(self.depth_bits) } else { mask }
     }
@@ -172,7 +225,7 @@ impl Problem {
         let bin = |(bin, power): (u32, &[f32; 3])| {
             let power = Rgb::from_array(power.map(f64::from));
             let source = walls.source(&around, side, [*patch, bin], power);
-            let mask = Mask::all(self.rays_of(&source).pixels());
+            let mask = Mask::all(walls.rays_of(&source).map_or(0, Hemisphere::pixels));
             Parcel { environment: *environment, source, mask, form_factor: 1.0, through: None }
         };
         powers.map(bin).collect()
@@ -186,8 +239,9 @@ impl Problem {
     }
 
     /// The rays over a source, a pixel of its mask each.
-    pub(crate) fn rays_of(&self, source: &Source) -> &Hemisphere {
-        self.walls.as_ref().and_then(|walls| walls.rays_of(source)).unwrap_or(&self.hemisphere)
+    pub(crate) fn rays_of(&self, source: &Source, mask: &Mask) -> &Hemisphere {
+        let of_wall = self.walls.as_ref().and_then(|walls| walls.rays_of(source));
+        of_wall.unwrap_or_else(|| self.hemisphere_of(mask))
     }
 
     /// Where an environment lies.

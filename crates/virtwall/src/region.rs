@@ -168,7 +168,7 @@ impl Region {
         let parcel = |part: Part| Parcel {
             environment: *environment,
             source: Source { centre: part.centre, power: source.power * part.share, ..source },
-            mask: self.problem.clear_mask(),
+            mask: self.problem.clear_mask(source.power),
             form_factor: 1.0,
             through: None,
         };

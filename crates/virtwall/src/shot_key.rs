@@ -5,8 +5,8 @@ use xxhash_rust::xxh3::Xxh3Default;
 
 use crate::message::Parcel;
 
-/// What decides a shot of a problem: environment, source and mask. The mask, and where its rays start,
-/// stand here by a 128-bit digest: among 10⁹ of them two share theirs with a probability below 10⁻²⁰.
+/// What decides a shot of a problem: environment, source and mask, whose length tells the hemisphere. The
+/// mask, and where its rays start, stand here by a 128-bit digest: among 10⁹ of them two share theirs with a probability below 10⁻²⁰.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct ShotKey {
     environment: u32,
@@ -55,6 +55,7 @@ impl ShotKey {
 
 fn digest(source: &Source, mask: &Mask) -> u128 {
     let mut hasher = Xxh3Default::new();
+    hasher.update(&mask.pixels().to_le_bytes());
     source.centre.to_array().iter().for_each(|x| hasher.update(&x.to_bits().to_le_bytes()));
     for words in mask.words().chunks(64) {
         let mut bytes = [0; 512];

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use multicomputer::Caches;
-use radiosity::{Block, Record, trace};
+use radiosity::{Block, Hemisphere, Mask, Record, trace};
 
 use crate::message::Parcel;
 use crate::problem::Problem;
@@ -125,6 +125,7 @@ impl Storage {
         let whole = problem.space.grid.whole();
         let environments = &problem.environments;
         let mask_bytes = u64::from(problem.hemisphere.pixels()).div_ceil(64) * 8;
+        let directions = problem.hemispheres().map(|h| h.directions.len()).sum();
         let mut room = Room { next: 0, gap: layout.gap };
         let scalars = layout.scalars.map(|touched| touched[0]);
         let stack = room.take(1, scalars[0]);
@@ -132,7 +133,7 @@ impl Storage {
             problem: Arc::clone(problem),
             caches,
             scalars: [stack, 0, 0, 0, 0, 0],
-            directions: room.take(problem.hemisphere.directions.len(), layout.direction),
+            directions: room.take(directions, layout.direction),
             crossings: problem.space.grid.plane_counts().map(|n| room.take(n, layout.crossing)),
             masks: room.take(environments.len(), mask_bytes),
             mask_bytes,
@@ -198,14 +199,16 @@ impl Storage {
         let environment = &problem.environments[e];
         let mask = self.next_mask();
         let Parcel { source, mask: pixels, .. } = parcel;
+        let hemisphere = problem.rays_of(source, pixels);
+        let (directions, bytes) = (self.directions_of(pixels), pixels.words().len() as u64 * 8);
         let mut copy = mask;
-        trace(&problem.space, environment, &problem.hemisphere, source, pixels, |record| {
+        trace(&problem.space, environment, hemisphere, source, pixels, |record| {
             if record == Record::Copy {
                 copy = self.next_mask();
-                self.caches.touch(mask, self.mask_bytes);
-                self.caches.touch(copy, self.mask_bytes);
+                self.caches.touch(mask, bytes);
+                self.caches.touch(copy, bytes);
             }
-            self.touch(e, [mask, copy], record);
+            self.touch(e, [mask, copy, directions], record);
         });
         self.pass_over_patches(e);
     }
@@ -217,9 +220,18 @@ impl Storage {
         place
     }
 
+    /// The table of directions that a mask belongs to: they lie one after the other.
+    fn directions_of(&self, mask: &Mask) -> u64 {
+        let own = self.problem.hemisphere_of(mask).pixels();
+        let hemispheres = self.problem.hemispheres().map(Hemisphere::pixels);
+        let before = hemispheres.take_while(|&pixels| pixels != own);
+        self.directions + before.map(u64::from).sum::<u64>() * self.layout.direction
+    }
+
     /// Touch a record of an environment, whose mask is shot or copied.
     #[inline]
-    fn touch(&mut self, environment: usize, [mask, copy]: [u64; 2], record: Record) {
+    fn touch(&mut self, environment: usize, places: [u64; 3], record: Record) {
+        let [mask, copy, directions] = places;
         let Storage { layout, caches, .. } = self;
         let polygons = &self.polygons[if layout.by_environment { environment } else { 0 }];
         let mut touch = |array: u64, number: u32, [bytes, touched]: [u64; 2]| {
@@ -241,7 +253,7 @@ impl Storage {
         match record {
             Record::Direction(pixel) => {
                 touch(mask, pixel / 64, [8, 8]);
-                touch(self.directions, pixel, [layout.direction; 2]);
+                touch(directions, pixel, [layout.direction; 2]);
             }
             Record::Crossing { axis, plane } => {
                 touch(self.crossings[axis], plane, [layout.crossing; 2]);
@@ -270,7 +282,7 @@ impl Storage {
             }
             Record::Copy => {}
             Record::PlaneTest(pixel) => {
-                touch(self.directions, pixel, [layout.direction; 2]);
+                touch(directions, pixel, [layout.direction; 2]);
                 touch(copy, pixel / 64, [8, 8]);
             }
         }

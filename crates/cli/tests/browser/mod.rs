@@ -1,5 +1,7 @@
 //! A headless Chromium, driven by its DevTools protocol.
 
+#![allow(dead_code, reason = "each test needs a part of it")]
+
 use std::env;
 use std::fs;
 use std::net::TcpStream;

@@ -2,10 +2,10 @@
 
 use radiosity::{LocalEnvironment, Rgb};
 
+use super::single::{self, Corners};
 use crate::bench::{Bench, Trial};
 use crate::direct::{form_factors, lamps_and_others};
 use crate::light::{emissions, object_means, off};
-use crate::naive::single::{self, Corners};
 use crate::rays::sources;
 
 /// Greatest radiosity, over a lamp's, that one shot of a lamp brings to any patch when each ray brings

@@ -5,8 +5,9 @@ use std::fs;
 use radiosity::glam::DVec3;
 
 use crate::bench::Bench;
-use crate::naive::MOST_RAYS;
-use crate::rays::{Count, rays, sources};
+use crate::finding::Count;
+use crate::rays::{rays, sources};
+use crate::twin::MOST_RAYS;
 
 /// A face with the normal of its first three corners.
 struct Face {

@@ -4,7 +4,8 @@ use radiosity::{End, Ray};
 
 use crate::bench::Bench;
 use crate::direct::{lamps_and_others, sees};
-use crate::rays::{Count, follow, rays};
+use crate::finding::Count;
+use crate::rays::{follow, rays};
 
 /// Patches that see a lamp and that find it with none of their own rays.
 pub fn dark(bench: &Bench) -> Count {

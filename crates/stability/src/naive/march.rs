@@ -4,8 +4,9 @@ use radiosity::{Bounds, Ray, Side};
 use virtwall::Problem;
 
 use crate::bench::Bench;
-use crate::naive::MOST_RAYS;
-use crate::rays::{Count, nearest, rays, sources};
+use crate::finding::Count;
+use crate::rays::{nearest, rays, sources};
+use crate::twin::MOST_RAYS;
 
 /// Which rays an interface passes on.
 #[derive(Clone, Copy, PartialEq)]

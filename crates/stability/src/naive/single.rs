@@ -5,8 +5,9 @@ use radiosity::{Ray, Scene, Source};
 use virtwall::Problem;
 
 use crate::bench::Bench;
-use crate::naive::MOST_RAYS;
-use crate::rays::{Count, rays, sources};
+use crate::finding::Count;
+use crate::rays::{rays, sources};
+use crate::twin::MOST_RAYS;
 
 /// Whose the corners of a polygon are.
 #[derive(Clone, Copy, PartialEq)]

@@ -1,0 +1,52 @@
+//! Smaller patches where radiosity changes, as an experiment asks for them, and what runs tell of it.
+
+use radiosity::{Refinement, Wanted};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// An edge is halved no more often.
+pub const MOST_HALVINGS: u32 = 6;
+
+/// The columns of runs.csv: what the pilot run of a refined mesh took, which is not in time_s.
+pub const COLUMNS: [&str; 1] = ["pilot_rays"];
+
+/// Smaller patches where radiosity changes, and nowhere else. A pilot run finds out where that is, before
+/// the run proper and beside its time: the column pilot_rays says what it cast.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct RefineFields {
+    /// The error that a radiosity a patch may leave of itself, as a root mean square by area over that of
+    /// what is reflected. Patches of "patch_size" are halved along both edges, again and again, where that
+    /// spares most, until by the pilot's estimate it is no more than this. Choice C44. Default: none is
+    /// halved.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub relative_l2: Option<f64>,
+    /// How often edges are halved, at most.
+    #[schemars(range(min = 1, max = 6))]
+    pub most_halvings: u32,
+}
+
+impl Default for RefineFields {
+    fn default() -> RefineFields {
+        RefineFields { relative_l2: None, most_halvings: 3 }
+    }
+}
+
+impl RefineFields {
+    /// Whether patches are left as they are.
+    pub fn is_none(&self) -> bool {
+        self.relative_l2.is_none()
+    }
+
+    /// What is wanted, if anything.
+    pub fn wanted(&self) -> Option<Wanted> {
+        let RefineFields { relative_l2, most_halvings } = *self;
+        relative_l2.map(|relative_l2| Wanted { relative_l2, most_halvings })
+    }
+}
+
+/// The cell of a column.
+pub fn cell(pilot: &Refinement, column: &str) -> Option<String> {
+    let rays = pilot.shots * u64::from(Refinement::RAYS);
+    (column == COLUMNS[0]).then(|| rays.to_string())
+}

@@ -1,0 +1,101 @@
+//! What a run on one processor would have come to, had it stopped earlier.
+//!
+//! Patches are shot in the order of their values, and a source that was handed on is worth as much as its
+//! emitter (choice C13): so until the best patch falls below a threshold, a run with a lower one is the same.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use desim::Time;
+use multicomputer::{Machine, Network, Rank};
+use radiosity::{Rgb, Shot};
+
+use crate::instants::{Follower, Instant};
+use crate::message::Parcel;
+use crate::observer::{Observer, SharedObserver};
+use crate::outcome::Outcome;
+use crate::run::{Run, RunError};
+use crate::simulation::simulate_observed;
+
+/// Shows the light of a run whenever the best patch falls below a threshold.
+struct Stops<V> {
+    follower: Follower,
+    /// The run, for what its rules say of values and shares.
+    run: Run,
+    /// Values to come, the next and greatest one last.
+    values: Vec<f64>,
+    /// Parts to come of the patch that was selected last.
+    parts: usize,
+    visit: V,
+}
+
+impl<V: FnMut(Instant<'_>)> Stops<V> {
+    fn new(run: &Run, thresholds: &[f64], visit: V) -> Stops<V> {
+        let follower = Follower::new(run);
+        let mut stops = Stops { follower, run: run.clone(), values: Vec::new(), parts: 0, visit };
+        let environments = run.problem.environments.iter().enumerate();
+        let patches = environments.flat_map(|(number, environment)| {
+            (0..environment.patches.len()).map(move |patch| (number as u32, patch as u32))
+        });
+        let brightest = patches.map(|patch| stops.value(patch)).fold(0.0, f64::max);
+        stops.values = thresholds.iter().map(|threshold| brightest * threshold).collect();
+        stops.values.sort_unstable_by(f64::total_cmp);
+        stops
+    }
+
+    /// What a patch is worth, as processors choose.
+    fn value(&self, (environment, patch): (u32, u32)) -> f64 {
+        let power = self.follower.light[environment as usize].unshot[patch as usize];
+        let area = self.run.problem.environments[environment as usize].radiosity_area(patch);
+        self.run.rules.selection.value_of(power, power / area)
+    }
+
+    /// A patch gives away what it shoots, all its parts at once.
+    fn take(&mut self, (environment, patch): (u32, u32)) {
+        let Run { problem, rules, .. } = &self.run;
+        let geometry = &problem.environments[environment as usize];
+        let left = 1.0 - rules.shooting.share(geometry.emitted_power(&problem.space, patch));
+        self.follower.light[environment as usize].unshot[patch as usize] *= left;
+        self.parts = rules.shooting.split.parts(&problem.space, geometry, patch).len();
+    }
+}
+
+impl<V: FnMut(Instant<'_>)> Observer for Stops<V> {
+    fn selected(&mut self, now: Time, _: Rank, source: &Parcel) {
+        if source.is_local() {
+            if self.parts == 0 {
+                let patch = (source.environment, source.source.patch);
+                let value = self.value(patch);
+                while self.values.pop_if(|threshold| value < *threshold).is_some() {
+                    (self.visit)(self.follower.instant(now));
+                }
+                self.take(patch);
+            }
+            self.parts -= 1;
+        }
+        self.follower.selected(source);
+    }
+
+    fn shot(&mut self, _: Time, _: Rank, source: &Parcel, shot: &Shot, reflected: Rgb) {
+        self.follower.shot(source, shot, reflected);
+    }
+}
+
+/// Simulates a run on one processor and shows what it would have ended with at each of `thresholds`, parts
+/// of the brightest patch, in falling order. Those below the run's own show its end.
+pub fn visit_stops(
+    run: &Run,
+    machine: &Machine,
+    network: Box<dyn Network>,
+    thresholds: &[f64],
+    visit: impl FnMut(Instant<'_>) + 'static,
+) -> Result<Outcome, RunError> {
+    let stops = Rc::new(RefCell::new(Stops::new(run, thresholds, visit)));
+    let observer: SharedObserver = stops.clone();
+    let outcome = simulate_observed(run, machine, network, Some(observer))?;
+    let mut stops = stops.borrow_mut();
+    let Stops { follower, values, visit, .. } = &mut *stops;
+    values.drain(..).for_each(|_| visit(follower.instant(outcome.time)));
+    drop(stops);
+    Ok(outcome)
+}
