@@ -1,5 +1,9 @@
 //! What accuracy costs: for each scene the setting that reaches an error in the least time.
 
+use std::path::Path;
+
+use crate::digest::FileDigest;
+use crate::file;
 use crate::table::Table;
 
 /// Errors for which the cheapest setting is told.
@@ -42,6 +46,32 @@ pub fn cheapest(table: &Table, sweeps: &[String]) -> Vec<Cheapest> {
     }
     let of = |scene: &&str| TARGETS.map(|target| reached(table, sweeps, scene, target));
     scenes.iter().flat_map(of).collect()
+}
+
+/// Reads the runs.csv of a sweep, at a path relative to `folder`.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn read_sweep(folder: &Path, name: &str) -> Result<(Table, FileDigest), String> {
+    let path = folder.join(name);
+    if !path.is_file() {
+        return Err(format!("\"{name}\": no such file; expected a path from this file"));
+    }
+    let bytes = file::read(&path).map_err(|fault| fault.to_string())?;
+    let table = Table::from_csv(&bytes)
+        .map_err(|error| format!("\"{name}\": {error}; expected a runs.csv"))?;
+    for column in ["scene", "time_s", "error_l2"] {
+        if !table.columns.iter().any(|known| known == column) {
+            return Err(format!("\"{name}\" has no column \"{column}\"; expected one"));
+        }
+    }
+    let digest = FileDigest::of(&path, name).map_err(|fault| fault.to_string())?;
+    Ok((table, digest))
+}
+
+/// The least time of a run of a scene that reaches an error, s.
+pub fn least_time(table: &Table, scene: &str, target: f64) -> Option<f64> {
+    reached(table, &[], scene, target).found.map(|found| found.time_s)
 }
 
 fn reached(table: &Table, sweeps: &[String], scene: &str, target: f64) -> Cheapest {

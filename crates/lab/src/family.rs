@@ -216,8 +216,9 @@ fn converged(
         // What is to come falls from halving to halving as it did, half as fast at best.
         let falls = if before > 0.0 { (after / before).clamp(0.5, 0.9) } else { 0.9 };
         let tail = after * falls / (1.0 - falls);
-        // A halving that no patch lies in changes nothing, and says nothing.
-        let enough = tail <= target / 4.0 && stops[last].unshot.abs() <= target;
+        // A halving that hardly a patch lies in changes nothing, and says nothing.
+        let [left, before] = [last, last - 2].map(|step| stops[step].unshot.abs());
+        let enough = tail <= target / 4.0 && (left <= target || left < 0.9 * before);
         if enough || last >= MOST_STEPS {
             return Ok((pilot, tail));
         }

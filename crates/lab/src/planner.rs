@@ -10,6 +10,7 @@ use serde_json::Value;
 
 use crate::accuracy::REPLACED;
 use crate::answer::{self, Stored};
+use crate::cheapest::{least_time, read_sweep};
 use crate::columns;
 use crate::comparison::Comparison;
 use crate::digest::FileDigest;
@@ -31,6 +32,7 @@ use crate::program::program;
 use crate::scene::Scene;
 use crate::settings::Settings;
 use crate::sweep::{Point, Sweep};
+use crate::table::Table;
 use crate::tuned::Tuned;
 use crate::tuner::tune;
 
@@ -130,6 +132,10 @@ impl Planner<'_> {
         let drafts = self.sweep.points.iter().map(|point| self.draft(point));
         let mut drafts = drafts.collect::<Result<Vec<Draft>, Fault>>()?;
         let scenes = self.load()?;
+        let mut swept = Vec::new();
+        for draft in &drafts {
+            swept.extend(self.accuracy_sweep(draft)?.map(|(_, digest)| digest));
+        }
         if self.preparing.finding {
             self.tune(&mut drafts, &scenes)?;
         }
@@ -149,6 +155,7 @@ impl Planner<'_> {
             scenes.iter().flat_map(|(scene, _)| scene.digests.clone()).collect();
         files.extend(self.machines.iter().flat_map(|machine| machine.digests.clone()));
         files.extend(compared);
+        files.extend(swept);
         files.extend(self.stored.iter().map(|stored| stored.digest.clone()));
         files.sort();
         files.dedup();
@@ -291,7 +298,7 @@ impl Planner<'_> {
 
     /// Refuses knobs beside an accuracy, which finds them.
     fn check_accuracy(&self, point: &Point, typed: &Experiment) -> Result<(), Fault> {
-        let Some(accuracy) = typed.accuracy else { return Ok(()) };
+        let Some(accuracy) = &typed.accuracy else { return Ok(()) };
         accuracy.check().map_err(|(field, message)| self.fault(point, field, message))?;
         let set = |field: &&&str| {
             let pointer = format!("/{}", field.replace('.', "/"));
@@ -347,7 +354,10 @@ impl Planner<'_> {
         let refuse = |(field, message)| self.fault(draft.point, field, message);
         let settings = Settings::of(experiment, scene).map_err(refuse)?;
         let machine = &self.machines[draft.machine].machine;
-        let target = experiment.accuracy.map_or(1.0, |accuracy| accuracy.relative_l2);
+        let target = experiment.accuracy.as_ref().map_or(1.0, |accuracy| accuracy.relative_l2);
+        let sweep = self.accuracy_sweep(draft)?;
+        let sweep_time_s =
+            sweep.and_then(|(table, _)| least_time(&table, &experiment.scene, target));
         let watch = |runs| (self.preparing.on_pilot)(&experiment.scene, target, runs);
         let memory = self.preparing.memory / self.preparing.threads;
         let host = Host { memory, threads, watch: &watch };
@@ -359,8 +369,15 @@ impl Planner<'_> {
             pilots
                 .point(&tuned.knobs)
                 .map_err(|message| refuse(("accuracy.relative_l2", message)))?,
-            tuned,
+            Tuned { sweep_time_s, ..tuned },
         ))
+    }
+
+    /// The sweep that an accuracy is held against, if there is one.
+    fn accuracy_sweep(&self, draft: &Draft) -> Result<Option<(Table, FileDigest)>, Fault> {
+        let name = draft.typed.accuracy.as_ref().and_then(|accuracy| accuracy.sweep.as_ref());
+        let read = name.map(|name| read_sweep(self.folder, name));
+        read.transpose().map_err(|message| self.fault(draft.point, "accuracy.sweep", message))
     }
 
     /// Reads all scenes, each once.

@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use radiosity::Rgb;
 use viewer::{Broadcast, Film};
-use virtwall::{Helpers, KeptShots, Memory, Observers, SharedObserver, ShotCounts};
+use virtwall::{Helpers, KeptShots, Memory, Observers, Recording, SharedObserver, ShotCounts};
 
 use crate::answer::DenseAnswers;
 use crate::causes::Explained;
@@ -256,31 +256,31 @@ impl Desk<'_> {
         let run = engine::run(problem, point, kept, on_shot);
         let on = self.options.on;
         let (traces, filmed) = (&self.options.traces, self.filmed[task.run]);
-        let watched = traces.is_some() || filmed;
-        let film = watched.then(|| Rc::new(RefCell::new(Film::new(problem, run.processors))));
+        let processors = run.processors;
+        let film = filmed.then(|| Rc::new(RefCell::new(Film::new(problem, processors))));
+        // A trace needs no light.
+        let recording = (traces.is_some() && !filmed)
+            .then(|| Rc::new(RefCell::new(Recording::new(problem, processors))));
         let broadcast = self.broadcast(task.run, &run);
         let observers = [
             film.clone().map(|film| film as SharedObserver),
+            recording.clone().map(|recording| recording as SharedObserver),
             broadcast.clone().map(|broadcast| broadcast as SharedObserver),
             self.heart(task.run, &run),
         ];
-        let mut observers: Vec<SharedObserver> = observers.into_iter().flatten().collect();
-        let observer = match observers.len() {
-            0 | 1 => observers.pop(),
-            _ => Some(Rc::new(RefCell::new(Observers(observers))) as SharedObserver),
-        };
-        let ended = engine::carry_out(&run, point, on, machine, *scene_bytes, observer);
+        let ended = engine::carry_out(&run, point, on, machine, *scene_bytes, together(observers));
         if let (Some(broadcast), Some(feed)) = (broadcast, &self.options.feed) {
             broadcast.borrow_mut().tell();
             feed(task.run, News::End);
         }
-        let Some(film) = film.and_then(Rc::into_inner).map(RefCell::into_inner) else {
-            return (ended, Ok(()));
-        };
+        let film = film.and_then(Rc::into_inner).map(RefCell::into_inner);
+        let recording = recording.and_then(Rc::into_inner).map(RefCell::into_inner);
         // Of a run that failed, too: there it is needed most.
-        let trace = |traces: &Traces| traces.write(self.plan, task.run, film.recording());
-        let traced = traces.as_ref().map_or(Ok(()), trace);
-        held(&self.films)[task.run] = Some(film).filter(|_| filmed && ended.is_ok());
+        let traced = match (traces, film.as_ref().map(Film::recording).or(recording.as_ref())) {
+            (Some(traces), Some(recording)) => traces.write(self.plan, task.run, recording),
+            _ => Ok(()),
+        };
+        held(&self.films)[task.run] = film.filter(|_| ended.is_ok());
         (ended, traced)
     }
 
@@ -302,5 +302,14 @@ impl Desk<'_> {
             let tell = move |pulse| watch(Event::Pulse { run: index, pulse });
             Rc::new(RefCell::new(Heart::new(run, tell))) as SharedObserver
         })
+    }
+}
+
+/// Observers as one, if there are any.
+fn together(observers: [Option<SharedObserver>; 4]) -> Option<SharedObserver> {
+    let mut observers: Vec<SharedObserver> = observers.into_iter().flatten().collect();
+    match observers.len() {
+        0 | 1 => observers.pop(),
+        _ => Some(Rc::new(RefCell::new(Observers(observers)))),
     }
 }

@@ -3,7 +3,7 @@
 use crate::pilot::Knobs;
 
 /// The columns of runs.csv.
-pub const COLUMNS: [&str; 9] = [
+pub const COLUMNS: [&str; 11] = [
     "target_l2",
     "predicted_l2",
     "predicted_deviation",
@@ -12,6 +12,8 @@ pub const COLUMNS: [&str; 9] = [
     "predicted_mesh",
     "predicted_stopping",
     "predicted_time_s",
+    "sweep_time_s",
+    "cost_over_sweep",
     "knobs",
 ];
 
@@ -30,6 +32,8 @@ pub struct Tuned {
     pub predicted: Causes,
     /// Its virtual time on one processor, seconds.
     pub time_s: f64,
+    /// The least time of a sweep's runs below the target, if there is such a sweep, seconds.
+    pub sweep_time_s: Option<f64>,
     /// Pilot runs that it took to find.
     pub pilots: usize,
 }
@@ -77,6 +81,10 @@ impl Tuned {
             "predicted_mesh" => mesh,
             "predicted_stopping" => stopping,
             "predicted_time_s" => return Some(format!("{:.6}", self.time_s)),
+            "sweep_time_s" => return self.sweep_time_s.map(|time_s| format!("{time_s:.6}")),
+            "cost_over_sweep" => {
+                return self.sweep_time_s.map(|time_s| format!("{:.4}", self.time_s / time_s));
+            }
             "knobs" => return Some(self.knobs.to_string()),
             _ => return None,
         };

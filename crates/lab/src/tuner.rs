@@ -122,9 +122,17 @@ impl Search<'_> {
                     let (error, time_s) = (said.error(), stop.time_s);
                     // The square's standard error, as one of the error itself.
                     let deviation = said.deviation / (2.0 * error.max(f64::MIN_POSITIVE));
-                    let (predicted, pilots) = (causes, 0);
-                    self.best =
-                        Some(Tuned { target, knobs, error, deviation, predicted, time_s, pilots });
+                    let (predicted, sweep_time_s, pilots) = (causes, None, 0);
+                    self.best = Some(Tuned {
+                        target,
+                        knobs,
+                        error,
+                        deviation,
+                        predicted,
+                        time_s,
+                        sweep_time_s,
+                        pilots,
+                    });
                 }
             }
         }

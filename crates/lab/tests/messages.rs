@@ -37,8 +37,8 @@ fn experiments_are_refused_with_place_value_and_expectation() {
             "experiments/x.json:2: processor: unknown field \"processor\", did you mean \
              \"processors\"? (there are: $schema, title, scene, machine, network, network_tolerance, \
              node_memory, display, count_start_up, processors, local_environments, cut, cells, patch_size, \
-             emitter_patch_size, hemisphere, interfaces, virtual_walls, mask_bits, source_split, overshoot, \
-             ambient, reference, error_causes, accuracy, selection, ties, stop, merge_masks, mapping, radiosity_updates, \
+             emitter_patch_size, refine, hemisphere, interfaces, virtual_walls, mask_bits, source_split, overshoot, \
+             ambient, reference, error_causes, accuracy, selection, ties, order, stop, merge_masks, mapping, radiosity_updates, \
              reuse_shots, seed, compare_with, plots)",
         ),
         (

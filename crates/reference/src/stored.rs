@@ -63,12 +63,29 @@ pub enum Method {
 impl Reference {
     /// A solution of a subject, on the patches that it is of.
     pub fn new(subject: Subject, patches: &Patches, solution: &Solution) -> Reference {
-        let arrays = |colours: &[radiosity::Rgb]| colours.iter().map(|c| c.to_array()).collect();
+        let errors: Vec<[f64; 3]> = solution.error.iter().map(|c| c.to_array()).collect();
+        let both = solution.radiosity.iter().map(|c| c.to_array()).zip(&errors);
+        let told = |(radiosity, error): ([f64; 3], &[f64; 3])| {
+            [0, 1, 2].map(|colour| rounded(radiosity[colour], error[colour]))
+        };
+        let whole = |error: &[f64; 3]| error.map(|error| rounded(error, error));
         Reference {
             subject,
             relative_l2_error: solution.relative_l2_error(patches),
-            radiosity: arrays(&solution.radiosity),
-            error: arrays(&solution.error),
+            radiosity: both.map(told).collect(),
+            error: errors.iter().map(whole).collect(),
         }
+    }
+}
+
+/// A number to some hundredths of its error, as a file need tell no more.
+fn rounded(number: f64, error: f64) -> f64 {
+    let exponent = format!("{error:e}").split_once('e').and_then(|(_, e)| e.parse::<i32>().ok());
+    match exponent {
+        Some(exponent) if error > 0.0 && exponent > -15 => {
+            let decimals = (2 - exponent).max(0) as usize;
+            format!("{number:.decimals$}").parse().unwrap_or(number)
+        }
+        _ => number,
     }
 }

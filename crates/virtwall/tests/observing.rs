@@ -13,7 +13,7 @@ use desim::{Duration, Time};
 use multicomputer::{LayerAccount, Machine, MessageLayer, NodeMemory, Packets};
 use virtwall::{
     Activity, KeptShots, MessageKind, MessageRecord, Outcome, Recording, Rules, Run, Shooting,
-    SourceSplit, Thing, radiosity_at, simulate, simulate_observed, visit_instants,
+    SourceSplit, Thing, radiosity_at, simulate, simulate_observed, visit_instants, visit_stops,
 };
 
 fn run(processors: usize, rules: Rules) -> Run {
@@ -233,4 +233,41 @@ fn an_instant_agrees_with_the_recording() {
     assert_eq!(seen.len(), 1);
     assert_eq!(seen[0].unshot.element_sum(), wanted.unshot);
     assert_eq!(seen[0].in_transit.element_sum(), wanted.in_transit);
+}
+
+/// Where a run passes a threshold it is, to the bit, what a run with that threshold ends with, and as long
+/// but for the end itself; in several environments, if patches are shot whole.
+#[test]
+fn a_run_tells_of_all_greater_thresholds() {
+    let thresholds = [0.5, 0.02, 0.015, 0.01, 0.005];
+    let one = two_rooms_cut([1, 1, 1]);
+    let uncut = run(1, Rules { patch_threshold: 0.005, ..rules() });
+    let parts = run(1, Rules { patch_threshold: 0.005, ..knobs() });
+    for run in [uncut, Run { problem: one, ..parts }] {
+        let machine = paragon();
+        let seen = Rc::new(RefCell::new(Vec::new()));
+        let visit = {
+            let seen = Rc::clone(&seen);
+            move |instant: virtwall::Instant<'_>| {
+                let light: Vec<Vec<_>> = instant.radiosity().map(Iterator::collect).collect();
+                seen.borrow_mut().push((instant.time, light));
+            }
+        };
+        visit_stops(&run, &machine, machine.network(), &thresholds, visit).unwrap();
+        let seen = seen.take();
+        assert_eq!(seen.len(), thresholds.len());
+        assert!(seen[0].0 < seen[2].0 && seen[2].0 < seen[4].0);
+        for (patch_threshold, (time, light)) in thresholds.into_iter().zip(seen) {
+            let alone =
+                Run { rules: Rules { patch_threshold, ..run.rules.clone() }, ..run.clone() };
+            let outcome = simulate(&alone, &machine).unwrap();
+            let pairs = light.iter().flatten().zip(outcome.radiosity.iter().flatten());
+            for (found, told) in pairs {
+                let rounding = if run.rules.shooting.ambient { 1e-9 } else { 0.0 };
+                assert!(found.abs_diff_eq(*told, rounding * told.max_element()), "{found} {told}");
+            }
+            let ratio = time.as_seconds_f64() / outcome.time.as_seconds_f64();
+            assert!((0.98..1.001).contains(&ratio), "{patch_threshold}: {ratio}");
+        }
+    }
 }

@@ -1,0 +1,123 @@
+//! Columns that tell a run's error, and the stored references that it is held against.
+
+#![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
+
+mod common;
+
+use std::fs;
+use std::sync::Arc;
+
+use common::Project;
+use lab::{On, OpenScene, Options, Plan, Preparing, Results, Viewing, carry_out};
+use radiosity::{LocalEnvironment, PatchSize, Space};
+use reference::{Dense, Method, Patches, Problem, Reference, Subject};
+
+const STORED: &str = "results/references/box.json";
+
+fn experiment(more: &str) -> String {
+    format!(
+        r#"{{ "title": "t", "scene": "box", "processors": 1, "local_environments": 1,
+            "hemisphere": {{ "pixels": [64, 4096] }}, "stop": {{ "patch_threshold": "0.01 %" }}{more} }}"#
+    )
+}
+
+/// A project with the dense solution of its scene as a stored reference, changed by `change`.
+fn project(change: impl Fn(&mut Reference)) -> Project {
+    let project = Project::new(&experiment(r#", "reference": "stored", "error_causes": true"#));
+    let open = OpenScene::load(project.path("scenes/box.json").to_str().unwrap()).unwrap();
+    let size = PatchSize { reflector: open.patch_size, emitter: open.emitter_patch_size };
+    let space = Space::new(open.scene, open.cells);
+    let environment = LocalEnvironment::new(&space, space.grid.whole(), size);
+    let patches = Patches::new(&space, &environment);
+    let subject = Subject {
+        scene: "box".to_owned(),
+        patches_sha256: patches.digest(),
+        patch_size_m: open.patch_size,
+        emitter_patch_size_m: open.emitter_patch_size,
+        cells: open.cells,
+        problem: Problem::Patches,
+        method: Method::Dense { tolerance: 1e-4 },
+    };
+    let dense = Dense::new(&space.scene, patches.clone(), 1e-4, 1, || ());
+    let mut reference = Reference::new(subject, &patches, &dense.solve());
+    change(&mut reference);
+    project.write(STORED, &serde_json::to_string(&reference).unwrap());
+    project
+}
+
+fn run(project: &Project) -> Results {
+    let plan = Plan::read(&project.path("experiments/x.json"), &[], &Preparing::default()).unwrap();
+    let options = Options {
+        threads: 1,
+        fresh: true,
+        on: On::Simulation,
+        memory: 1 << 28,
+        shot_files: None,
+        traces: None,
+        viewing: Viewing::None,
+        feed: None,
+        pulse: false,
+    };
+    let endings = carry_out(&plan, &project.path("out"), &options, Arc::new(|_| {})).unwrap();
+    Results::of(&plan, &endings, On::Simulation).unwrap()
+}
+
+#[test]
+fn errors_are_told_and_taken_apart() {
+    let project = project(|_| ());
+    let stored = run(&project);
+    let number = |results: &Results, row: usize, column: &str| {
+        results.table.number(&results.table.rows[row], column).unwrap()
+    };
+    for row in [0, 1] {
+        let [l2, most, own] =
+            ["error_l2", "error_max", "reference_error"].map(|column| number(&stored, row, column));
+        assert!(0.0 < own && own < 1e-3 && own < l2 && l2 < most, "{row}: {own} {l2} {most}");
+        let causes = ["mask", "stopping", "directions", "sampling", "mesh"]
+            .map(|cause| number(&stored, row, &format!("error_{cause}")));
+        let sum: f64 = causes.iter().sum();
+        assert!(l2 <= sum * 1.000_001, "{row}: {l2} of {causes:?}");
+        // The reference is of the run's own mesh, and the mask as fine as the hemisphere.
+        assert!(causes[0] == 0.0 && causes[4] < 1e-3, "{causes:?}");
+    }
+    assert!(number(&stored, 0, "error_directions") > 8.0 * number(&stored, 1, "error_directions"));
+    // The dense solution that a run finds for itself is the stored one.
+    project.write("experiments/x.json", &experiment(r#", "reference": "dense""#));
+    let dense = run(&project);
+    assert!(!dense.table.columns.iter().any(|column| column == "error_mesh"));
+    for row in [0, 1] {
+        let ratio = number(&dense, row, "error_l2") / number(&stored, row, "error_l2");
+        assert!((ratio - 1.0).abs() < 1e-2, "{row}: {ratio}");
+    }
+}
+
+#[test]
+fn references_that_do_not_fit_are_refused() {
+    let good = || project(|_| ());
+    let other_scene = good();
+    let path = other_scene.path("scenes/box.mtl");
+    let text = fs::read_to_string(&path).unwrap();
+    fs::write(&path, text.replace("Kd 0.5 0.5 0.5", "Kd 0.5 0.4 0.5")).unwrap();
+    let moved = good();
+    let path = moved.path("scenes/box.obj");
+    let text = fs::read_to_string(&path).unwrap();
+    fs::write(&path, text.replace("1.9", "1.8")).unwrap();
+    let (unreadable, missing) = (good(), good());
+    unreadable.write(STORED, "{}");
+    fs::remove_file(missing.path(STORED)).unwrap();
+    let patches = "references/box.json: is of a scene with other patches than this one's";
+    for (project, expected) in [
+        (other_scene, patches),
+        (moved, patches),
+        (project(|reference| reference.subject.patch_size_m *= 0.5), patches),
+        (project(|reference| reference.subject.patches_sha256 = "00".to_owned()), patches),
+        (project(|reference| _ = reference.radiosity.pop()), patches),
+        (project(|reference| reference.subject.cells = [0, 1, 1]), "no sizes of patches and cells"),
+        (unreadable, "expected what `reference` has stored"),
+        (missing, "reference: unknown reference \"box\""),
+    ] {
+        let plan = Plan::read(&project.path("experiments/x.json"), &[], &Preparing::default());
+        let message = plan.err().unwrap().to_string();
+        assert!(message.contains(expected), "{message}");
+    }
+}
