@@ -74,7 +74,7 @@ fn its_page_follows_the_run_and_becomes_the_report() {
     let Some(mut page) = Browser::start() else { return };
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path();
-    let (mut run, url) = start(out, "2.5 %");
+    let (mut run, url) = start(out, "2 %");
     page.visit(&url);
     page.wait_for("document.getElementById('viewer').dataset.ready === '0'");
     page.wait_for("parseFloat(document.getElementById('clock').textContent) > 0");
