@@ -115,6 +115,44 @@ fn phold_of_processes(bencher: Bencher) {
     });
 }
 
+/// What entities that are no processes share.
+struct Bare {
+    random: Random,
+    left: Cell<u64>,
+    taken: [Cell<u64>; ENTITIES],
+}
+
+impl Bare {
+    /// Sends an event to some entity, which sends another when it comes, unless all have been sent.
+    fn send(self: Rc<Bare>, handle: &Handle) {
+        let Some(left) = self.left.get().checked_sub(1) else { return };
+        self.left.set(left);
+        let (to, delay) = self.random.event();
+        let again = handle.clone();
+        handle.at(handle.now() + delay, move || {
+            self.taken[to].set(self.taken[to].get() + 1);
+            self.send(&again);
+        });
+    }
+}
+
+/// PHOLD of the engine alone: an event is a callback, and there is no process.
+#[divan::bench]
+fn phold_of_callbacks(bencher: Bencher) {
+    bencher.counter(ItemsCount::new(EVENTS)).bench(|| {
+        let simulation = Simulation::new();
+        let bare = Rc::new(Bare {
+            random: Random(Cell::new(1996)),
+            left: Cell::new(EVENTS),
+            taken: [const { Cell::new(0) }; ENTITIES],
+        });
+        for _ in 0..ENTITIES {
+            bare.clone().send(&simulation.handle());
+        }
+        simulation.run().map(|end| (end.0, bare.taken.each_ref().map(Cell::get)))
+    });
+}
+
 /// The same events in a loop over a heap.
 #[divan::bench]
 fn phold_in_a_bare_loop(bencher: Bencher) {

@@ -403,6 +403,10 @@ fn rules(point: &Experiment) -> Rules {
             fields::Ties::ReceivedFirst => virtwall::Ties::ReceivedFirst,
             fields::Ties::LocalFirst => virtwall::Ties::LocalFirst,
         },
+        order: match point.order {
+            fields::Order::Best => virtwall::Order::Best,
+            fields::Order::InTurn => virtwall::Order::InTurn,
+        },
         patch_threshold: point.stop.patch_threshold.value(),
         energy_threshold: point.stop.energy_threshold.value(),
         collect_every: desim::Duration::from_seconds_f64(point.stop.collect_every.value()),

@@ -144,6 +144,10 @@ pub struct Experiment {
     /// the paper does not say.
     #[serde(default)]
     pub ties: Ties,
+    /// Whether the next source is looked for in all environments of a processor (Figure 9), or in one after
+    /// the other (§5.2). Choice C45: both are the paper's.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub order: Order,
     /// When sources are no longer shot.
     #[serde(default)]
     pub stop: Stop,
@@ -264,6 +268,17 @@ pub enum Ties {
     ReceivedFirst,
     /// The node's own.
     LocalFirst,
+}
+
+/// Where a processor looks for its next source.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Order {
+    /// In all its environments.
+    #[default]
+    Best,
+    /// In one until nothing is left there to shoot, then in the next that has something.
+    InTurn,
 }
 
 /// How local environments are given to processors.
@@ -391,6 +406,11 @@ fn default_seed() -> u64 {
 
 fn yes() -> bool {
     true
+}
+
+/// A field that is as it is by default is not told.
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
 }
 
 /// A field that is true by default is not told either.

@@ -268,12 +268,7 @@ impl Desk<'_> {
             broadcast.clone().map(|broadcast| broadcast as SharedObserver),
             self.heart(task.run, &run),
         ];
-        let mut observers: Vec<SharedObserver> = observers.into_iter().flatten().collect();
-        let observer = match observers.len() {
-            0 | 1 => observers.pop(),
-            _ => Some(Rc::new(RefCell::new(Observers(observers))) as SharedObserver),
-        };
-        let ended = engine::carry_out(&run, point, on, machine, *scene_bytes, observer);
+        let ended = engine::carry_out(&run, point, on, machine, *scene_bytes, together(observers));
         if let (Some(broadcast), Some(feed)) = (broadcast, &self.options.feed) {
             broadcast.borrow_mut().tell();
             feed(task.run, News::End);
@@ -307,5 +302,14 @@ impl Desk<'_> {
             let tell = move |pulse| watch(Event::Pulse { run: index, pulse });
             Rc::new(RefCell::new(Heart::new(run, tell))) as SharedObserver
         })
+    }
+}
+
+/// Observers as one, if there are any.
+fn together(observers: [Option<SharedObserver>; 4]) -> Option<SharedObserver> {
+    let mut observers: Vec<SharedObserver> = observers.into_iter().flatten().collect();
+    match observers.len() {
+        0 | 1 => observers.pop(),
+        _ => Some(Rc::new(RefCell::new(Observers(observers)))),
     }
 }

@@ -38,7 +38,7 @@ fn experiments_are_refused_with_place_value_and_expectation() {
              \"processors\"? (there are: $schema, title, scene, machine, network, network_tolerance, \
              node_memory, display, count_start_up, processors, local_environments, cut, cells, patch_size, \
              emitter_patch_size, refine, hemisphere, interfaces, virtual_walls, mask_bits, source_split, overshoot, \
-             ambient, reference, error_causes, accuracy, selection, ties, stop, merge_masks, mapping, radiosity_updates, \
+             ambient, reference, error_causes, accuracy, selection, ties, order, stop, merge_masks, mapping, radiosity_updates, \
              reuse_shots, seed, compare_with, plots)",
         ),
         (

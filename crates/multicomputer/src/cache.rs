@@ -60,7 +60,7 @@ pub(crate) fn translations(file: &TranslationsFile) -> Result<CacheLevel, Machin
 #[derive(Clone, Debug)]
 pub struct Caches {
     levels: Vec<Cache>,
-    translations: Option<Cache>,
+    translations: Option<Translations>,
 }
 
 #[derive(Clone, Debug)]
@@ -74,6 +74,19 @@ struct Cache {
     misses: u64,
 }
 
+/// The pages whose addresses are known: a cache of one set with very many ways, of which the one used
+/// last is told from the others by when that was.
+#[derive(Clone, Debug)]
+struct Translations {
+    level: CacheLevel,
+    shift: u32,
+    /// When each page was used last, 0 for those that are not known.
+    used: Vec<u64>,
+    known: Vec<usize>,
+    now: u64,
+    misses: u64,
+}
+
 /// No line is that far up.
 const NONE: u64 = u64::MAX;
 
@@ -81,16 +94,15 @@ impl Caches {
     /// Empty caches, the nearest level first, and no translations known, where misses of them count.
     pub fn new(levels: &[CacheLevel], translations: Option<&CacheLevel>) -> Caches {
         let levels = levels.iter().map(Cache::new).collect();
-        Caches { levels, translations: translations.map(Cache::new) }
+        Caches { levels, translations: translations.map(Translations::new) }
     }
 
     /// Read or write some bytes, at least one.
     #[inline]
     pub fn touch(&mut self, address: u64, bytes: u64) {
         if let Some(pages) = &mut self.translations {
-            for page in address >> pages.line..=(address + bytes - 1) >> pages.line {
-                pages.touch(page);
-            }
+            (address >> pages.shift..=(address + bytes - 1) >> pages.shift)
+                .for_each(|p| pages.touch(p));
         }
         let Some((first, next)) = self.levels.split_first_mut() else { return };
         for line in address >> first.line..=(address + bytes - 1) >> first.line {
@@ -118,7 +130,7 @@ impl Caches {
 
     /// Seconds that all missing translations so far cost.
     pub fn translating_time(&self) -> f64 {
-        self.translations.as_ref().map_or(0.0, Cache::time)
+        self.translations.as_ref().map_or(0.0, |pages| pages.misses as f64 * pages.level.miss_time)
     }
 }
 
@@ -152,6 +164,34 @@ impl Cache {
         held[0] = line;
         self.misses += u64::from(found.is_none());
         found.is_some()
+    }
+}
+
+impl Translations {
+    fn new(level: &CacheLevel) -> Translations {
+        let shift = level.line.trailing_zeros();
+        let (level, used, known) = (level.clone(), Vec::new(), Vec::new());
+        Translations { level, shift, used, known, now: 0, misses: 0 }
+    }
+
+    /// Use a page.
+    #[inline]
+    fn touch(&mut self, page: u64) {
+        let page = page as usize;
+        self.now += 1;
+        if page >= self.used.len() {
+            self.used.resize(page + 1, 0);
+        }
+        if self.used[page] == 0 {
+            self.misses += 1;
+            let room = (self.known.len() as u64) < self.level.ways;
+            let oldest = (0..self.known.len()).min_by_key(|&place| self.used[self.known[place]]);
+            match oldest.filter(|_| !room) {
+                Some(place) => self.used[std::mem::replace(&mut self.known[place], page)] = 0,
+                None => self.known.push(page),
+            }
+        }
+        self.used[page] = self.now;
     }
 }
 

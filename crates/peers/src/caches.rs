@@ -11,6 +11,7 @@ use virtwall::{Layout, Parcel, Problem, Storage};
 
 use crate::command::run;
 use crate::cpu::rounded;
+use crate::host::Host;
 use crate::shots;
 
 /// Scenes and how they are cut.
@@ -24,11 +25,11 @@ const LIGHTS: usize = 3;
 const UNCOUNTED: usize = 1;
 
 /// Where arrays and the stack begin in memory is luck, and decides which of them fall on each other in a
-/// direct-mapped cache. Of several placements the median counts, valgrind's and the model's: bytes from which
+/// direct-mapped cache. Of several placements the mean counts, valgrind's and the model's: bytes from which
 /// the allocator gives an array pages of its own and bytes by which the stack begins further down; bytes that
 /// the model leaves between arrays.
 const PLACEMENTS: [(u64, usize); 5] =
-    [(4_096, 0), (131_072, 3_100), (1 << 30, 6_200), (131_072, 9_300), (4_096, 12_400)];
+    [(4_096, 0), (131_072, 3_100), (1 << 30, 6_200), (131_072, 9_300), (1 << 30, 12_400)];
 const GAPS: [u64; 7] = [16, 1_040, 2_064, 3_088, 5_008, 6_032, 7_056];
 
 /// The native kernel's records as the compiler lays them out: of a polygon's 120 B a test reads normal and
@@ -58,8 +59,8 @@ pub struct Row {
     pub scene: String,
     /// Local environments.
     pub local_environments: u32,
-    /// The level, 1 nearest to the processor.
-    pub level: usize,
+    /// The level, 1 nearest to the processor; `pages`: the translations of their addresses.
+    pub level: &'static str,
     /// Shots, through an environment each, the uncounted ones included.
     pub shots: usize,
     /// Loads and stores of the native kernel, millions.
@@ -70,7 +71,7 @@ pub struct Row {
     pub percent_model: f64,
     /// The model's over valgrind's.
     pub ratio: f64,
-    /// The least and the greatest that valgrind counts, as the arrays lie, over its median.
+    /// The least and the greatest that valgrind counts, as the arrays lie, over its mean.
     pub spread: String,
     /// The same of the model.
     pub spread_model: String,
@@ -84,11 +85,16 @@ type Counts = [u64; 3];
 /// # Errors
 /// When valgrind does not run, a scene is missing, or the machine has not two levels.
 pub fn measure(machine: &str) -> Result<Vec<Row>, String> {
-    let levels = levels(machine)?;
+    let (levels, pages) = levels(machine)?;
     let mut all = Vec::new();
     for scene in SCENES {
         for environments in ENVIRONMENTS {
-            let rows = rows(machine, &levels, scene, environments)?;
+            let mut rows = rows(machine, (["1", "2"], &levels), scene, environments)?;
+            if let Some(pages) = &pages {
+                // Valgrind takes them for a cache like any other.
+                let found = self::rows(machine, (["pages", ""], pages), scene, environments)?;
+                rows.extend(found.into_iter().take(1));
+            }
             let ratios: Vec<String> = rows.iter().map(|row| row.ratio.to_string()).collect();
             eprintln!("{scene} {environments}: {}", ratios.join(" "));
             all.extend(rows);
@@ -97,20 +103,24 @@ pub fn measure(machine: &str) -> Result<Vec<Row>, String> {
     Ok(all)
 }
 
-/// The two levels of a machine's caches, as valgrind can have them.
-fn levels(machine: &str) -> Result<Vec<CacheLevel>, String> {
+/// The two levels of a machine's caches, as valgrind can have them, and its translations as two such levels.
+fn levels(machine: &str) -> Result<([CacheLevel; 2], Option<[CacheLevel; 2]>), String> {
     let plan = shots::plan(&[&format!("machine={machine}")])?;
-    let mut levels = plan.machines[0].machine.processor.caches.clone();
-    if levels.len() != 2 {
-        return Err(format!("{machine}: found {} levels of caches; expected 2", levels.len()));
-    }
-    levels.iter_mut().for_each(|level| level.line = level.line.max(SHORTEST_LINE));
-    Ok(levels)
+    let processor = &plan.machines[0].machine.processor;
+    let levels = <[CacheLevel; 2]>::try_from(processor.caches.clone()).map_err(|levels| {
+        format!("{machine}: found {} levels of caches; expected 2", levels.len())
+    })?;
+    let pages = processor.translations.clone().map(|pages| [pages.clone(), pages]);
+    let as_valgrind = |level: CacheLevel| {
+        let line = level.line.max(SHORTEST_LINE);
+        CacheLevel { line, ..level }
+    };
+    Ok((levels.map(as_valgrind), pages))
 }
 
 fn rows(
     machine: &str,
-    levels: &[CacheLevel],
+    (names, levels): ([&'static str; 2], &[CacheLevel; 2]),
     scene: &str,
     environments: u32,
 ) -> Result<Vec<Row>, String> {
@@ -128,12 +138,12 @@ fn rows(
             machine: machine.to_owned(),
             scene: scene.to_owned(),
             local_environments: environments,
-            level: level + 1,
+            level: names[level],
             shots: shots.len(),
             references: rounded(references as f64 / 1e6),
-            percent: percent(counted.median),
-            percent_model: percent(modelled.median),
-            ratio: rounded(modelled.median as f64 / counted.median as f64),
+            percent: percent(counted.mean),
+            percent_model: percent(modelled.mean),
+            ratio: rounded(modelled.mean as f64 / counted.mean as f64),
             spread: counted.text(),
             spread_model: modelled.text(),
         }
@@ -197,7 +207,7 @@ fn modelled(problem: &Arc<Problem>, shots: &[Parcel], levels: &[CacheLevel], gap
 /// Misses as arrays lie.
 struct Spread {
     least: u64,
-    median: u64,
+    mean: u64,
     greatest: u64,
 }
 
@@ -205,11 +215,12 @@ impl Spread {
     fn of(misses: impl Iterator<Item = u64>) -> Spread {
         let mut all: Vec<u64> = misses.collect();
         all.sort_unstable();
-        Spread { least: all[0], median: all[all.len() / 2], greatest: all[all.len() - 1] }
+        let mean = all.iter().sum::<u64>() / all.len() as u64;
+        Spread { least: all[0], mean, greatest: all[all.len() - 1] }
     }
 
     fn text(&self) -> String {
-        let [least, greatest] = [self.least, self.greatest].map(|n| n as f64 / self.median as f64);
+        let [least, greatest] = [self.least, self.greatest].map(|n| n as f64 / self.mean as f64);
         format!("{least:.2}–{greatest:.2}")
     }
 }
@@ -223,6 +234,16 @@ pub fn native(scene: &str, environments: u32) -> Result<(), String> {
     let shots = shots::of_lights(&problem, LIGHTS);
     println!("{}", shots::carry_out(&problem, &shots, uncounted(&shots)));
     Ok(())
+}
+
+/// What was found, how and where.
+///
+/// # Errors
+/// When valgrind does not tell its version.
+pub fn readme(rows: &[Row]) -> Result<String, String> {
+    let head = include_str!("../README-of-caches.md");
+    let valgrind = run(Command::new("valgrind").arg("--version"), "valgrind")?;
+    Ok(format!("{head}- {}\n{}{}", valgrind.trim(), Host::here().list(), table(rows)))
 }
 
 /// What was found, for people.
@@ -248,5 +269,7 @@ pub fn table(rows: &[Row]) -> String {
             row.ratio,
         );
     }
+    let within = rows.iter().filter(|row| (1.0 / 1.5..=1.5).contains(&row.ratio)).count();
+    let _ = writeln!(text, "\n{within} of {} are within a factor of 1.5.", rows.len());
     text
 }

@@ -109,6 +109,7 @@ fn run(command: &Command) -> Result<(), String> {
             print!("{}", caches::table(&rows));
             if let Some(out) = out {
                 record::write(out, "caches.csv", &record::csv(&rows)?)?;
+                record::write(out, "README.md", &caches::readme(&rows)?)?;
             }
         }
         Command::Shots { scene, environments } => caches::native(scene, *environments)?,

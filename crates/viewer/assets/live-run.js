@@ -103,7 +103,8 @@ class LiveRun extends Run {
     append(all.arrived, sent.map((time, i) => time + flights[i]));
     for (const key of ["from", "to", "kind", "bytes"]) append(all[key], columns.ints());
     flights.forEach((flight) => (this.longestFlight = Math.max(this.longestFlight, flight)));
-    const first = upperBound(all.sent, Math.min(...sent, Infinity), 0, all.sent.length - sent.length);
+    const earliest = sent.reduce((least, time) => Math.min(least, time), Infinity);
+    const first = upperBound(all.sent, earliest, 0, all.sent.length - sent.length);
     const order = Array.from({ length: all.sent.length - first }, (_, i) => first + i);
     order.sort((a, b) => all.sent[a] - all.sent[b]);
     for (const column of Object.values(all)) {

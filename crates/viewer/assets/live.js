@@ -6,7 +6,6 @@ class LiveViewer extends Viewer {
   constructor(index) {
     super(index);
     this.playing = true;
-    this.progress = { ended: 0, under_way: [] };
     byId("viewer-title").textContent = "Runs under way";
     byId("quality").closest("figure").hidden = true;
     byId("energy").closest("figure").className = "panel wide-panel";
@@ -33,7 +32,7 @@ class LiveViewer extends Viewer {
     on("part", (data) => this.part(data));
     on("cut", () => this.say("This run is too large to be followed further here: what is shown ends before it does."));
     on("end", (data) => this.ended(Number(data)));
-    source.addEventListener("finished", () => this.finished());
+    source.addEventListener("finished", () => this.finished().catch((error) => this.say(error.message)));
     source.addEventListener("error", () => this.say("No connection to the simulation. What is shown is what it has told so far."));
   }
 
@@ -107,12 +106,10 @@ class LiveViewer extends Viewer {
     document.close();
   }
 
-  tellRuns(runs) {
-    this.progress = runs;
-    const { ended, under_way } = runs;
-    byId("sampled").textContent =
+  tellRuns({ ended, under_way }) {
+    this.say(
       `Under way: ${under_way.length} of ${count(this.index.runs.length, "run")}, ${ended} ended. ` +
-      "What is shown is what has happened so far; the page becomes the report when all have ended.";
+      "What is shown is what has happened so far; the page becomes the report when all have ended.");
     for (const option of byId("run").options) {
       option.disabled = !under_way.includes(Number(option.value)) && Number(option.value) !== this.number;
     }

@@ -14,7 +14,7 @@ pub(crate) type Answer = (&'static str, String);
 /// What one asks of a run; `alone` is its sibling on one processor, if that was recorded.
 pub(crate) fn answers(told: &Told, alone: Option<&Told>) -> Vec<Answer> {
     let mut answers = vec![("Which node finished last, and what was it doing?", finish(told))];
-    if told.processors() > 1 {
+    if told.processors() > 1 && told.account.last_shot.is_some() {
         answers.push(("Why is it not faster?", why(told, alone)));
     }
     answers.push(("Which node worked most?", busiest(told)));
@@ -110,21 +110,17 @@ fn chain(told: &Told) -> String {
     let mut nodes: Vec<(usize, f64)> =
         nodes.into_iter().enumerate().filter(|(_, seconds)| *seconds > 0.0).collect();
     nodes.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let named: Vec<String> = nodes
-        .iter()
-        .take(3)
-        .map(|&(node, seconds)| format!("node {node}, {}", s(seconds)))
-        .collect();
+    let on = |&(node, seconds): &(usize, f64)| format!("{} on node {node}", s(seconds));
+    let mut named: Vec<String> = nodes.iter().take(3).map(on).collect();
+    named.extend((nodes.len() > 3).then(|| "less on others".to_owned()));
     let rest = match rest {
         0.0 => String::new(),
         rest => format!(", {} paging or waiting for nothing recorded", percent(rest)),
     };
     format!(
-        "The critical path, the chain of work and messages that led to the end without a gap: {shots} shots on \
-         {} node{}, most of them on {}. {} of its length is computing, {} messages{rest}. The timeline shows it.",
-        nodes.len(),
-        if nodes.len() == 1 { "" } else { "s" },
-        named.join("; "),
+        "The critical path, the chain of work and messages that led to the end without a gap: {shots} shots, {}. \
+         {} of its length is computing, {} messages{rest}. The timeline shows it.",
+        named.join(", "),
         percent(computing),
         percent(messages),
     )
@@ -145,8 +141,11 @@ struct Loss {
 impl Loss {
     fn of(told: &Told, alone: Option<&Told>) -> Loss {
         let account = &told.account;
-        let work = account.all.computing().max(f64::MIN_POSITIVE);
-        let busiest = account.nodes[account.busiest].computing().max(f64::MIN_POSITIVE);
+        let work = account.all.computing();
+        let busiest = account.nodes[account.busiest].computing();
+        if busiest == 0.0 {
+            return Loss { base: told.seconds(), more: 1.0, uneven: 1.0, waits: 1.0 };
+        }
         let base = alone.map_or(work, Told::seconds);
         let uneven = busiest * told.processors() as f64 / work;
         Loss { base, more: work / base, uneven, waits: told.seconds() / busiest }

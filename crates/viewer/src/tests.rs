@@ -9,7 +9,7 @@ use desim::{Duration, Time};
 use multicomputer::Machine;
 use radiosity::{Hemisphere, HemisphereKind, PatchSize};
 use virtwall::{
-    KeptShots, Mapping, Observers, Outcome, Problem, ProblemOptions, Rules, Run, Selection,
+    KeptShots, Mapping, Observers, Order, Outcome, Problem, ProblemOptions, Rules, Run, Selection,
     SharedObserver, Shooting, Ties, simulate_observed,
 };
 
@@ -62,6 +62,7 @@ fn observed(
     let rules = Rules {
         selection: Selection::Energy,
         ties: Ties::ReceivedFirst,
+        order: Order::Best,
         patch_threshold: 0.02,
         wall_threshold: 1e-4,
         energy_threshold: 0.0,

@@ -14,7 +14,7 @@ use crate::process::Process;
 use crate::queue::Queue;
 use crate::region::Region;
 use crate::ring::{Ring, Step};
-use crate::rules::{Rules, Ties};
+use crate::rules::{Order, Rules, Ties};
 
 /// A compute node: its part of the scene, its queue, its part in the ring.
 pub struct ComputeNode {
@@ -23,6 +23,8 @@ pub struct ComputeNode {
     queue: Queue,
     /// What is still to be shot of the patch that was selected last, the last part first.
     parts: Vec<Parcel>,
+    /// The environment that it is at, where they are taken in turn.
+    turn: u32,
     ring: Ring,
     /// Until the service node says to stop selecting local patches.
     selecting: bool,
@@ -110,6 +112,7 @@ impl ComputeNode {
             region,
             queue: Queue::default(),
             parts: Vec::new(),
+            turn: 0,
             ring: Ring::new(rank, shared.processors),
             selecting: true,
             done: false,
@@ -134,13 +137,14 @@ impl ComputeNode {
             self.tally.counts.local_shots += 1;
             return Some(vec![part]);
         }
+        let only = self.environment_in_turn();
         let rules = &self.shared.rules;
-        let received = self.queue.best(rules.selection);
+        let received = self.queue.best(rules.selection, only);
         // Choice C25: the list of queued sources is searched through, and each lies in its own pages.
         let searched = self.region.changed().filter(|_| self.selecting).map(footprint::environment);
         process.touch(searched.chain(self.queue.turns().map(footprint::queued))).await;
         let (local, mut scan) = if self.selecting {
-            (self.region.best_patch(), self.region.scan())
+            (self.region.best_patch(only), self.region.scan())
         } else {
             (None, Work::NONE)
         };
@@ -164,6 +168,23 @@ impl ComputeNode {
         };
         self.foresee_local();
         choice
+    }
+
+    /// §5.2: stay in an environment until nothing is left there to shoot, then go on to the next that has
+    /// something.
+    fn environment_in_turn(&mut self) -> Option<u32> {
+        if self.shared.rules.order == Order::Best {
+            return None;
+        }
+        let has_some = |&environment: &u32| {
+            let only = Some(environment);
+            self.queue.best(self.shared.rules.selection, only).is_some()
+                || self.selecting && self.region.best_patch(only).is_some()
+        };
+        let all = || self.region.lights().map(|(environment, _)| environment);
+        let from_here = all().filter(|&environment| environment >= self.turn);
+        self.turn = from_here.chain(all()).find(has_some).unwrap_or(self.turn);
+        Some(self.turn)
     }
 
     /// The best local patches that are left will be shot sooner or later.
@@ -247,8 +268,9 @@ impl ComputeNode {
         let gather = |(part, shot)| self.region.gather(part, shot);
         let gathering =
             source.iter().zip(shots).map(gather).fold(Work::NONE, |all, work| all + work);
-        let received = self.queue.best(shared.rules.selection).map(|(value, _)| value);
-        let local = self.region.best_patch().filter(|_| self.selecting).map(|(value, ..)| value);
+        let received = self.queue.best(shared.rules.selection, None).map(|(value, _)| value);
+        let local =
+            self.region.best_patch(None).filter(|_| self.selecting).map(|(value, ..)| value);
         let best = received.into_iter().chain(local).fold(shared.wall_threshold, f64::max);
         let (handed, handing) = match self.selecting {
             true => self.region.hand_on(best),

@@ -61,7 +61,7 @@ pub use process::Process;
 pub use reader::DecodeError;
 pub use recording::{EnergyAt, MessageRecord, NodeRecord, Recording, ShotRecord, Span};
 pub use region::Region;
-pub use rules::{Rules, Selection, Ties};
+pub use rules::{Order, Rules, Selection, Ties};
 pub use run::{Run, RunError};
 pub use service_node::{Collection, service_node};
 pub use shooting::{Shooting, SourceSplit};

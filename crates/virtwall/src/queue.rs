@@ -41,15 +41,20 @@ impl Queue {
         None
     }
 
-    /// The greatest value that waits, and its place; of equals the first to arrive.
+    /// The greatest value that waits, or waits for one environment, and its place; of equals the first to
+    /// arrive.
     ///
     /// Choice C13: a received source is worth its emitter's whole energy, however few pixels are
     /// left: that is what the message states.
-    pub(crate) fn best(&self, selection: Selection) -> Option<(f64, usize)> {
+    pub(crate) fn best(&self, selection: Selection, only: Option<u32>) -> Option<(f64, usize)> {
         let value =
             |source: &Vec<Parcel>| source.iter().map(|p| selection.value(&p.source)).sum::<f64>();
-        let values = self.waiting.iter().map(|(_, source)| value(source));
-        values.zip(0..).reduce(|best, other| if other.0 > best.0 { other } else { best })
+        let asked = |source: &Vec<Parcel>| {
+            only.is_none_or(|only| source.iter().any(|parcel| parcel.environment == only))
+        };
+        let waiting = (0..).zip(&self.waiting).filter(|(_, (_, source))| asked(source));
+        let values = waiting.map(|(place, (_, source))| (value(source), place));
+        values.reduce(|best, other| if other.0 > best.0 { other } else { best })
     }
 
     /// The turns of all that wait.

@@ -87,12 +87,20 @@ impl Region {
         self.untold.insert(holding);
     }
 
-    /// The local patch with the greatest value at or above the threshold: its value, holding and
-    /// number; of equals the lowest number.
-    pub(crate) fn best_patch(&self) -> Option<(f64, usize, u32)> {
-        let (_, holding) = self.bests.best()?;
-        let (value, patch) = self.holdings[holding as usize].values.best()?;
-        (value >= self.threshold).then_some((value, holding as usize, patch))
+    /// The local patch, or that of one environment, with the greatest value at or above the threshold: its
+    /// value, holding and number; of equals the lowest number.
+    pub(crate) fn best_patch(&self, only: Option<u32>) -> Option<(f64, usize, u32)> {
+        let holding = match only {
+            Some(only) => self.place(only)?,
+            None => self.bests.best()?.1 as usize,
+        };
+        let (value, patch) = self.holdings[holding].values.best()?;
+        (value >= self.threshold).then_some((value, holding, patch))
+    }
+
+    /// The place of an environment among those held.
+    fn place(&self, environment: u32) -> Option<usize> {
+        self.holdings.binary_search_by_key(&environment, |h| h.environment).ok()
     }
 
     /// The best patch of each environment, if it is at or above the threshold and another than the
@@ -171,8 +179,7 @@ impl Region {
     /// Update the radiosities of the environment in which a source was shot. Returns the power that
     /// its patches reflect of it, W.
     pub(crate) fn receive(&mut self, parcel: &Parcel, shot: &Shot) -> Rgb {
-        let place = self.holdings.binary_search_by_key(&parcel.environment, |h| h.environment);
-        let Ok(place) = place else { return Rgb::ZERO };
+        let Some(place) = self.place(parcel.environment) else { return Rgb::ZERO };
         let held = &mut self.holdings[place];
         let reflected = held.light.receive(&parcel.source, shot);
         let geometry = &self.problem.environments[held.environment as usize];
@@ -187,8 +194,7 @@ impl Region {
     /// Virtual walls: gather what of a source leaves the environment in which it was shot.
     pub(crate) fn gather(&mut self, parcel: &Parcel, shot: &Shot) -> Work {
         let mut work = Work::NONE;
-        let place = self.holdings.binary_search_by_key(&parcel.environment, |h| h.environment);
-        let Ok(place) = place else { return work };
+        let Some(place) = self.place(parcel.environment) else { return work };
         let held = &mut self.holdings[place];
         let pixels = held.gathered.gather(&self.problem, parcel, shot);
         held.unshot = None;

@@ -13,6 +13,8 @@ pub struct Rules {
     pub selection: Selection,
     /// Who goes first of equals.
     pub ties: Ties,
+    /// Where a processor looks for its next source.
+    pub order: Order,
     /// A local patch is not selected when its value is below this fraction of the greatest first
     /// value of any patch.
     ///
@@ -71,6 +73,18 @@ impl Selection {
             Selection::DeltaRadiosity => radiosity.abs().element_sum(),
         }
     }
+}
+
+/// Where a processor looks for its next source.
+///
+/// Choice C45: Figure 9 chooses among all that a processor has; §5.2's "sequential algorithm processes local
+/// environments ones after the others", all sources that wait for one before the next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Order {
+    /// In all its environments.
+    Best,
+    /// In one environment until nothing is left there to shoot, then in the next that has something.
+    InTurn,
 }
 
 /// Who goes first when a received source and a local patch have the same value; among received ones

@@ -78,7 +78,7 @@ impl Run {
             let mine = mine.map(|(environment, _)| environment);
             Region::new(&self.problem, mine, &self.rules, threshold)
         };
-        let brightest = region(None, 0.0).best_patch().map_or(0.0, |(value, ..)| value);
+        let brightest = region(None, 0.0).best_patch(None).map_or(0.0, |(value, ..)| value);
         let threshold = brightest * self.rules.patch_threshold;
         let regions: Vec<Region> = (0..processors).map(|r| region(Some(r), threshold)).collect();
         let shared = Arc::new(Shared {

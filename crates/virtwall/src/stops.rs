@@ -2,6 +2,8 @@
 //!
 //! Patches are shot in the order of their values, and a source that was handed on is worth as much as its
 //! emitter (choice C13): so until the best patch falls below a threshold, a run with a lower one is the same.
+//! But for parts of patches that were handed on, each worth its share: among several environments a run with
+//! a lower threshold does patches before them that this threshold leaves, so that what it tells is near only.
 
 use std::cell::RefCell;
 use std::rc::Rc;

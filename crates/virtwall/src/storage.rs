@@ -32,9 +32,9 @@ pub struct Layout {
     pub slot: u64,
     /// A patch, what an update touches of it, and its energy and form factor.
     pub patch: [u64; 3],
-    /// What each ray, each cell and each polygon touches of frames, of constants, and of what says where
-    /// the arrays are: three places.
-    pub scalars: [[u64; 3]; 3],
+    /// What each ray, each cell, each test of a polygon and each of a neighbour's plane touches that is no
+    /// record, place by place.
+    pub scalars: [[u64; 4]; 6],
     /// Between an array and the next: an allocator's own.
     pub gap: u64,
     /// Whether each environment keeps its cells and polygons by itself, as it does on a machine without
@@ -50,9 +50,9 @@ impl Layout {
     /// a polygon's 264 B its plane, its edges up to the one that a ray passes outside, and its axes, of a
     /// patch's 300 B, aligned, its form factor, energies, reflectance and area.
     ///
-    /// Scalars are measured, once, of the kernel in `plain.rs` as compiled: lines of 32 B of the stack, of
-    /// constants and of headers that more than half of all rays, cells and tests touched while 3,000 rays
-    /// were cast from Cornell's lamp (`valgrind --tool=lackey --trace-mem=yes`).
+    /// Scalars are measured, once, of the kernel in `plain.rs` as compiled for x86-64: lines of 32 B that more
+    /// than half of all rays, cells and tests touched while 3,000 rays were cast from Cornell's lamp
+    /// (`valgrind --tool=lackey --trace-mem=yes`); those of tests of planes are its instructions' operands.
     pub const PLAIN_C: Layout = Layout {
         direction: 24,
         cell: [8, 8],
@@ -64,7 +64,14 @@ impl Layout {
         axes: [64, 64],
         slot: 4,
         patch: [304, 96, 8],
-        scalars: [[896, 352, 64], [384, 64, 32], [384, 32, 0]],
+        scalars: [
+            [896, 352, 64, 320], // the stack
+            [288, 64, 32, 192],  // constants
+            [96, 0, 0, 32],      // addresses of functions
+            [64, 0, 0, 32],      // where the directions and the patches are
+            [96, 0, 0, 0],       // where the pieces of polygons are
+            [224, 32, 0, 0],     // where the grid and the polygons are
+        ],
         gap: 16,
         by_environment: true,
     };
@@ -75,7 +82,7 @@ pub struct Storage {
     problem: Arc<Problem>,
     layout: Layout,
     caches: Caches,
-    scalars: [u64; 3],
+    scalars: [u64; 6],
     directions: u64,
     masks: u64,
     mask_bytes: u64,
@@ -120,13 +127,12 @@ impl Storage {
         let mask_bytes = u64::from(problem.hemisphere.pixels()).div_ceil(64) * 8;
         let directions = problem.hemispheres().map(|h| h.directions.len()).sum();
         let mut room = Room { next: 0, gap: layout.gap };
-        let mut scalars = layout.scalars.map(|[ray, ..]| ray).into_iter();
-        let mut scalars = |room: &mut Room| room.take(1, scalars.next().unwrap_or(0));
-        let frames = scalars(&mut room);
+        let scalars = layout.scalars.map(|touched| touched[0]);
+        let stack = room.take(1, scalars[0]);
         let mut storage = Storage {
             problem: Arc::clone(problem),
             caches,
-            scalars: [frames, 0, 0],
+            scalars: [stack, 0, 0, 0, 0, 0],
             directions: room.take(directions, layout.direction),
             crossings: problem.space.grid.plane_counts().map(|n| room.take(n, layout.crossing)),
             masks: room.take(environments.len(), mask_bytes),
@@ -137,13 +143,14 @@ impl Storage {
             patches: Vec::new(),
             layout,
         };
-        storage.scalars[1] = scalars(&mut room);
+        storage.scalars[1] = room.take(1, scalars[1]);
+        storage.scalars[3] = room.take(1, scalars[3]);
         if storage.layout.by_environment {
             environments.iter().for_each(|e| storage.place(e.block, &mut room));
         } else {
             storage.place(whole, &mut room);
         }
-        storage.scalars[2] = scalars(&mut room);
+        storage.scalars[4] = room.take(1, scalars[4]);
         for environment in environments {
             let Layout { number, slot, patch, .. } = &storage.layout;
             let patches = environment.patches.len();
@@ -153,6 +160,8 @@ impl Storage {
                 room.take(patches, patch[0]),
             ]);
         }
+        storage.scalars[2] = room.take(1, scalars[2]);
+        storage.scalars[5] = room.take(1, scalars[5]);
         storage
     }
 
@@ -233,7 +242,8 @@ impl Storage {
         let scalars = match record {
             Record::Direction(_) => Some(0),
             Record::Cell { .. } => Some(1),
-            Record::Plane(_) | Record::PlaneTest(_) => Some(2),
+            Record::Plane(_) => Some(2),
+            Record::PlaneTest(_) => Some(3),
             _ => None,
         };
         for (&place, bytes) in self.scalars.iter().zip(layout.scalars) {
@@ -272,7 +282,7 @@ impl Storage {
             }
             Record::Copy => {}
             Record::PlaneTest(pixel) => {
-                touch(self.directions, pixel, [layout.direction; 2]);
+                touch(directions, pixel, [layout.direction; 2]);
                 touch(copy, pixel / 64, [8, 8]);
             }
         }

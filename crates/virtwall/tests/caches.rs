@@ -10,15 +10,19 @@ use common::{problem, rules, same, two_rooms};
 use desim::Duration;
 use multicomputer::{CacheLevel, Machine};
 use radiosity::{Light, Mask, Operation, Record, shoot_plainly, trace};
-use virtwall::{KeptShots, Outcome, Rules, Run, simulate};
+use virtwall::{KeptShots, Order, Outcome, Rules, Run, simulate};
 
 /// The Paragon with caches of so many bytes, none: without caches.
 fn on(run: &Run, size: Option<u64>) -> Outcome {
+    simulate(run, &machine(size)).unwrap()
+}
+
+fn machine(size: Option<u64>) -> Machine {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../machines/paragon-xps.json");
     let mut machine = Machine::from_json(&std::fs::read_to_string(path).unwrap(), path).unwrap();
     let level = |size| CacheLevel { size, line: 32, ways: 2, miss_time: 1e-6 };
     machine.processor.caches = size.map(level).into_iter().collect();
-    simulate(run, &machine).unwrap()
+    machine
 }
 
 fn rooms(processors: usize) -> Run {
@@ -48,6 +52,35 @@ fn misses_take_their_time_and_change_nothing_else() {
         assert_eq!(with.nodes[0].compute - without.nodes[0].compute, missing);
         (with.time, with.nodes) = (without.time, without.nodes.clone());
         same(&with, &without);
+    }
+}
+
+#[test]
+fn environments_in_turn_are_shot_as_often_and_stay_in_the_caches() {
+    let best = rooms(1);
+    let in_turn = Run { rules: Rules { order: Order::InTurn, ..best.rules.clone() }, ..rooms(1) };
+    let [best, in_turn] = [best, in_turn].map(|run| on(&run, Some(65_536)));
+    assert_eq!(in_turn.counts.local_shots, best.counts.local_shots);
+    assert_eq!(in_turn.counts.received_shots, best.counts.received_shots);
+    let [best, in_turn] = [best, in_turn].map(|outcome| missing(&outcome));
+    assert!(in_turn < best, "{in_turn:?} in turn, {best:?} else");
+}
+
+#[test]
+fn translations_take_their_time_and_change_nothing_else() {
+    let run = rooms(1);
+    let pages = |entries| {
+        let mut machine = machine(Some(1 << 22));
+        let page = 4_096;
+        let pages = CacheLevel { size: entries * page, line: page, ways: entries, miss_time: 1e-6 };
+        machine.processor.translations = Some(pages);
+        simulate(&run, &machine).unwrap()
+    };
+    let (without, few, many) = (on(&run, Some(1 << 22)), pages(8), pages(4_096));
+    assert!(many.translating() > Duration::ZERO && few.translating() > many.translating() * 2);
+    for with in [few, many] {
+        assert_eq!(missing(&with), missing(&without));
+        assert_eq!(with.time - without.time, with.translating());
     }
 }
 

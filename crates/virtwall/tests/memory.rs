@@ -10,7 +10,8 @@ use multicomputer::Machine;
 use peak_alloc::PeakAlloc;
 use radiosity::{Hemisphere, HemisphereKind, LocalEnvironment, Mask, Patch, PatchSize, Rgb};
 use virtwall::{
-    KeptShots, Mapping, Problem, ProblemOptions, Rules, Run, Selection, Shooting, Ties, simulate,
+    KeptShots, Mapping, Order, Problem, ProblemOptions, Rules, Run, Selection, Shooting, Ties,
+    simulate,
 };
 
 #[global_allocator]
@@ -47,6 +48,7 @@ fn bytes(floors: u16) -> [f64; 3] {
     let rules = Rules {
         selection: Selection::Energy,
         ties: Ties::ReceivedFirst,
+        order: Order::Best,
         patch_threshold: 0.1,
         wall_threshold: 0.0,
         energy_threshold: 0.0,
@@ -76,6 +78,10 @@ fn a_patch_takes_some_250_bytes() {
     // Leaving and unshot power, reflectance, radiosity in the outcome; what selection remembers.
     assert_eq!(size_of::<Rgb>(), 24);
     assert!((70.0..180.0).contains(&run), "{run:.0} bytes a patch for a run");
+    // What is left of a run without a patch: 56 nodes, their network, what is under way.
+    let fixed = small[1] - run * small[2];
+    println!("{:.2} MiB for a simulated machine", fixed / 1_048_576.0);
+    assert!(fixed < 5.0 * 1_048_576.0, "{fixed:.0} bytes for a simulated machine");
     // A mask is its bits.
     let words = size_of_val(Mask::none(30_976).words());
     assert_eq!((words, size_of::<Mask>()), (30_976 / 8, 40));

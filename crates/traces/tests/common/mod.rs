@@ -11,7 +11,7 @@ use multicomputer::{Machine, Network};
 use radiosity::glam::DVec3;
 use radiosity::{Face, Hemisphere, HemisphereKind, Material, PatchSize, Rgb, Scene};
 use virtwall::{
-    KeptShots, Mapping, Outcome, Problem, ProblemOptions, Recording, Rules, Run, Selection,
+    KeptShots, Mapping, Order, Outcome, Problem, ProblemOptions, Recording, Rules, Run, Selection,
     Shooting, Ties, simulate_observed,
 };
 
@@ -63,6 +63,7 @@ pub fn record(machine: &Machine, network: Box<dyn Network>) -> (Outcome, Recordi
     let rules = Rules {
         selection: Selection::Energy,
         ties: Ties::ReceivedFirst,
+        order: Order::Best,
         patch_threshold: 0.002,
         energy_threshold: 0.0,
         collect_every: Duration::from_seconds_f64(0.5),

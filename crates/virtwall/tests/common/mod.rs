@@ -8,7 +8,9 @@ use desim::Duration;
 use multicomputer::Machine;
 use radiosity::glam::DVec3;
 use radiosity::{Face, Hemisphere, HemisphereKind, Material, PatchSize, Rgb, Scene};
-use virtwall::{Mapping, Outcome, Problem, ProblemOptions, Rules, Selection, Shooting, Ties};
+use virtwall::{
+    Mapping, Order, Outcome, Problem, ProblemOptions, Rules, Selection, Shooting, Ties,
+};
 
 /// A material that reflects `reflectance` and emits `emission` in all colours.
 pub fn grey(reflectance: f64, emission: f64) -> Material {
@@ -96,6 +98,7 @@ pub fn rules() -> Rules {
     Rules {
         selection: Selection::Energy,
         ties: Ties::ReceivedFirst,
+        order: Order::Best,
         patch_threshold: 0.002,
         wall_threshold: 1e-4,
         energy_threshold: 0.0,
