@@ -45,7 +45,7 @@ impl Explained<'_> {
         dense: &Answer,
     ) -> Result<Causes, String> {
         let fine = Experiment {
-            hemisphere: crate::experiment::Hemisphere { pixels_a_bit: 1, ..self.point.hemisphere },
+            hemisphere: crate::hemisphere::Hemisphere { pixels_a_bit: 1, ..self.point.hemisphere },
             ..self.point.clone()
         };
         let all_shot = Experiment {

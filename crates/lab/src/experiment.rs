@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 
 use crate::accuracy::AccuracyFields;
 use crate::display::DisplayFields;
+use crate::hemisphere::Hemisphere;
 use crate::interfaces::{Interfaces, VirtualWalls};
 use crate::node_memory::NodeMemoryFields;
 use crate::quantity::{Fraction, Length, Period, Triple};
@@ -189,65 +190,6 @@ impl Experiment {
     }
 }
 
-/// The hemisphere of rays over a source, a ray a pixel. Paper: §3.2.
-#[derive(Clone, Copy, Debug, Deserialize, Serialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct Hemisphere {
-    /// How directions are spread. Choice C1: the paper has a hemisphere of pixels and leaves
-    /// their arrangement open; at 30,976 pixels it changes the error of a form factor sixfold.
-    pub directions: Directions,
-    /// Pixels, that is rays a source and bits a mask. Choice C1: unpublished; a 4 KB message
-    /// (§4.2.3) leaves room for some 32,000, and 30,976 = 176² bits leave 224 bytes for geometry
-    /// and photometry.
-    #[schemars(range(min = 1))]
-    pub pixels: u32,
-    /// Pixels of the smallest hemisphere, over the dimmest sources. A source with less unshot energy than
-    /// the brightest patch begins with is shot with a quarter of "pixels", a quarter of that and so on,
-    /// as long as none of its rays carries more than those of that patch do. Its mask is as short.
-    /// Default: all sources have all pixels.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 1))]
-    pub least_pixels: Option<u32>,
-    /// Neighbouring pixels that share a bit of the masks that travel: 1, 2, 4 and so on to 64. All
-    /// pixels are cast, messages are shorter, and where pixels of a bit disagree their majority
-    /// decides.
-    #[serde(skip_serializing_if = "is_single")]
-    pub pixels_a_bit: u32,
-    /// Whether the directions are turned about the normal by an angle of each source's own, so
-    /// that no ray runs along a plane by habit.
-    pub rotated: bool,
-    /// Whether the directions lie over each source by its place in the scene, and so turn with the
-    /// scene, rather than by the axes: turned by 90° a scene then has the same light to the last digits.
-    pub by_place: bool,
-}
-
-impl Default for Hemisphere {
-    fn default() -> Hemisphere {
-        Hemisphere {
-            directions: Directions::Fibonacci,
-            pixels: 30_976,
-            least_pixels: None,
-            pixels_a_bit: 1,
-            rotated: true,
-            by_place: true,
-        }
-    }
-}
-
-/// How a hemisphere's directions are spread.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Directions {
-    /// A cosine-weighted Fibonacci disc, turned by an angle of each source's own.
-    Fibonacci,
-    /// The five faces of a half cube.
-    Hemicube,
-    /// Rings of equal elevation.
-    Polar,
-    /// The concentric map of a square.
-    Concentric,
-}
-
 /// Which source a node shoots next.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -386,10 +328,6 @@ fn one() -> f64 {
 
 fn is_one(value: &f64) -> bool {
     *value == 1.0
-}
-
-fn is_single(value: &u32) -> bool {
-    *value == 1
 }
 
 fn default_machine() -> String {

@@ -18,6 +18,17 @@ pub fn parse(text: &str) -> Result<Value, serde_json::Error> {
     serde_json::from_str::<Strict>(text).map(|strict| strict.0)
 }
 
+/// Gives a value the fields that it lacks, after its own.
+pub fn fill(value: &mut Value, defaults: Value) {
+    let (Value::Object(fields), Value::Object(defaults)) = (value, defaults) else { return };
+    for (name, default) in defaults {
+        match fields.get_mut(&name) {
+            Some(field) => fill(field, default),
+            None => _ = fields.insert(name, default),
+        }
+    }
+}
+
 /// The line, from 1, on which the value at `place` begins.
 pub fn line_of(text: &str, place: &Place) -> Option<usize> {
     let mut raw: &RawValue = serde_json::from_str(text).ok()?;

@@ -11,8 +11,10 @@ use reference::{Difference, Overlaps, Patches, Testimony, Witnesses};
 use virtwall::{KeptShots, Problem};
 
 use crate::engine::{self, Stopped};
-use crate::experiment::{Directions, Experiment, Selection};
+use crate::experiment::{Experiment, Selection};
 use crate::fault::WrongField;
+use crate::hemisphere::Directions;
+use crate::problem;
 use crate::quantity::{Fraction, Length};
 use crate::settings::Settings;
 use crate::source_split::SplitFields;
@@ -132,7 +134,7 @@ impl<'a> Pilots<'a> {
             let message = "errors are not estimated where there are \"media\"; expected none";
             return Err(("accuracy", message.to_owned()));
         }
-        let problem = engine::problem(scene, settings)?;
+        let problem = problem::problem(scene, settings)?;
         let (reflector, emitter) = (settings.patch_size, settings.emitter_patch_size);
         let space = Space::new(scene.clone(), settings.cells.0);
         let size = PatchSize { reflector, emitter };
@@ -259,7 +261,7 @@ impl<'a> Pilots<'a> {
                 settings.emitter_patch_size *= knobs.mesh;
                 settings.directions = Directions::Fibonacci;
                 settings.pixels = knobs.pixels;
-                let problem = engine::problem(self.scene, &settings);
+                let problem = problem::problem(self.scene, &settings);
                 let problem = problem.map_err(|(field, message)| format!("{field}: {message}"))?;
                 let own = Patches::of_all(&problem.space, &problem.environments);
                 // What other settings shot is needed no more.

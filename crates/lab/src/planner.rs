@@ -4,40 +4,36 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use multicomputer::Machine;
 use reference::parallel;
 use serde_json::Value;
 
 use crate::accuracy::REPLACED;
 use crate::answer::{self, Stored};
 use crate::cheapest::{least_time, read_sweep};
-use crate::columns;
 use crate::comparison::Comparison;
 use crate::digest::FileDigest;
 use crate::document::Document;
 use crate::engine;
-use crate::experiment::{Experiment, Plot};
-use crate::fault::{Fault, unknown};
+use crate::experiment::Experiment;
+use crate::fault::Fault;
 use crate::file::{PLAIN, is_plain};
 use crate::find::{Found, Shelf, find};
 use crate::host_clock::HostClock;
-use crate::knobs;
+use crate::json;
 use crate::machine_file::MachineFile;
-use crate::measure::Measure;
-use crate::network;
 use crate::pilot::{Host, Pilots};
 use crate::place::Place;
 use crate::plan::{Equipment, Plan, Prepared, Run};
+use crate::plots::check_plots;
+use crate::problem;
 use crate::program::program;
 use crate::scene::Scene;
 use crate::settings::Settings;
+use crate::suits::suits;
 use crate::sweep::{Point, Sweep};
 use crate::table::Table;
 use crate::tuned::Tuned;
 use crate::tuner::tune;
-
-/// More local environments can only be a slip.
-const MOST_ENVIRONMENTS: u32 = 65_536;
 
 /// How a plan is made ready. None of it changes the plan.
 pub struct Preparing<'a> {
@@ -192,37 +188,9 @@ impl Planner<'_> {
     fn draft<'p>(&mut self, point: &'p Point) -> Result<Draft<'p>, Fault> {
         let locate = |place| self.sweep.place_in_file(point, place);
         let typed: Experiment = self.document.typed(&point.value, locate)?;
-        let refuse = |field, message: String| Err(self.fault(point, field, message));
-        let (processors, environments) = (typed.processors, typed.local_environments);
-        if !(1..=MOST_ENVIRONMENTS).contains(&environments) {
-            let message = format!("{environments}; expected 1 to {MOST_ENVIRONMENTS}");
-            return refuse("local_environments", message);
-        }
-        if processors == 0 {
-            return refuse("processors", "0; expected 1 or more".to_owned());
-        }
-        if processors > environments {
-            let message = format!("{processors} processors for {environments} local environments");
-            return refuse("processors", message + "; expected at most one for each");
-        }
         let machine = self.machine(point, &typed)?;
-        let nodes = self.machines[machine].machine.compute_nodes();
-        if processors as usize > nodes {
-            let message = format!(
-                "{processors} processors, but \"{}\" has {nodes} compute nodes; expected at most that",
-                typed.machine
-            );
-            return Err(self.fault(point, "processors", message));
-        }
-        if let Some((field, what)) = lacks(&self.machines[machine].machine, &typed) {
-            let message = format!("the {what} of \"{}\" is not modelled", typed.machine);
-            let section = if field == "count_start_up" { "start_up" } else { field };
-            let message = message + &format!("; expected a machine whose file has \"{section}\"");
-            return Err(self.fault(point, field, message));
-        }
-        network::check(&self.machines[machine].machine, typed.network)
-            .map_err(|error| self.fault(point, "network", error.to_string()))?;
-        knobs::check(&typed).map_err(|(field, message)| self.fault(point, field, message))?;
+        suits(&typed, &self.machines[machine].machine)
+            .map_err(|(field, message)| self.fault(point, field, message))?;
         let scene = self.scene(point, &typed)?;
         self.check_accuracy(point, &typed)?;
         Ok(Draft { point, typed, scene, machine, tuned: None })
@@ -417,7 +385,7 @@ impl Planner<'_> {
             let (settings, draft) = &wanted[number];
             let (scene, loading_s) = &scenes[draft.scene];
             let threads = self.preparing.threads;
-            let (problem, cpu_s) = engine::problem_on(&scene.geometry, settings, threads)
+            let (problem, cpu_s) = problem::problem_on(&scene.geometry, settings, threads)
                 .map_err(|(field, message)| self.fault(draft.point, field, message))?;
             let set_up_s = loading_s + cpu_s;
             let (settings, digests) = (settings.clone(), scene.digests.clone());
@@ -430,7 +398,7 @@ impl Planner<'_> {
     /// The experiment file with every default filled in: a file that says the same.
     fn resolved(&self, first: &Experiment) -> Value {
         let mut resolved = self.document.value.clone();
-        fill(&mut resolved, serde_json::to_value(first).unwrap_or_default());
+        json::fill(&mut resolved, serde_json::to_value(first).unwrap_or_default());
         resolved
     }
 
@@ -445,59 +413,5 @@ impl Planner<'_> {
             return Err(self.document.fault(&Place::of("compare_with"), message));
         }
         Ok((Comparison::read(&path)?, Some(FileDigest::of(&path, name)?)))
-    }
-}
-
-/// The first field that asks for what a machine does not model, and what that is.
-fn lacks(machine: &Machine, typed: &Experiment) -> Option<(&'static str, &'static str)> {
-    if machine.node_memory.is_none() && !typed.node_memory.is_empty() {
-        return Some(("node_memory", "memory"));
-    }
-    if machine.display.is_none() && !typed.display.is_empty() {
-        return Some(("display", "display"));
-    }
-    (machine.start_up.is_none() && typed.count_start_up).then_some(("count_start_up", "start-up"))
-}
-
-/// Refuses plots of columns that there will not be, or with names that lead elsewhere.
-fn check_plots(plan: &Plan, document: &Document) -> Result<(), Fault> {
-    let plots: &[Plot] = &plan.plots;
-    let known = columns::drawable(&plan.axes, plan.also());
-    for (i, plot) in plots.iter().enumerate() {
-        let place = Place::of("plots").item(i);
-        let [x, y] = [&plot.x, &plot.y].map(|text| Measure::of(text));
-        let series: Vec<&str> = plot.series.iter().map(String::as_str).collect();
-        for (field, columns) in [("x", x.columns()), ("y", y.columns()), ("series", &series)] {
-            if let Some(column) = columns.iter().find(|&&c| !known.iter().any(|k| k == c)) {
-                let message = unknown("column", column, &known);
-                return Err(document.fault(&place.key(field), message));
-            }
-        }
-        if let Some(column) = plot.mark.keys().find(|&column| !known.contains(column)) {
-            let message = unknown("column", column, &known);
-            return Err(document.fault(&place.key("mark").key(column), message));
-        }
-        let stem = plot.stem();
-        if !is_plain(&stem) {
-            let message = format!("\"{stem}\" names a file; expected {PLAIN}");
-            return Err(document.fault(&place.key("file"), message));
-        }
-        if plots[..i].iter().any(|earlier| earlier.stem() == stem) {
-            let message =
-                format!("\"{stem}.svg\" is an earlier plot too; expected a \"file\" of its own");
-            return Err(document.fault(&place, message));
-        }
-    }
-    Ok(())
-}
-
-/// Gives a value the fields that it lacks, after its own.
-fn fill(value: &mut Value, defaults: Value) {
-    let (Value::Object(fields), Value::Object(defaults)) = (value, defaults) else { return };
-    for (name, default) in defaults {
-        match fields.get_mut(&name) {
-            Some(field) => fill(field, default),
-            None => _ = fields.insert(name, default),
-        }
     }
 }

@@ -3,8 +3,9 @@
 use serde::Serialize;
 
 use crate::cut::{automatic_cells, automatic_cut};
-use crate::experiment::{Directions, Experiment, is_false};
+use crate::experiment::{Experiment, is_false};
 use crate::fault::WrongField;
+use crate::hemisphere::Directions;
 use crate::quantity::Triple;
 use crate::refine::RefineFields;
 use crate::scene::Scene;

@@ -17,6 +17,7 @@ use crate::find::{Shelf, find};
 use crate::place::Place;
 use crate::plan::Plan;
 use crate::planner::Preparing;
+use crate::problem;
 use crate::scene::Scene;
 use crate::settings::Settings;
 
@@ -83,7 +84,7 @@ impl Stage {
         let mut whole = Experiment::of_one_environment(name);
         whole.hemisphere.pixels = PIXELS;
         let settings = Settings::of(&whole, &scene).map_err(fault)?;
-        let problem = engine::problem(&scene.geometry, &settings).map_err(fault)?;
+        let problem = problem::problem(&scene.geometry, &settings).map_err(fault)?;
         let title = scene.file.and_then(|file| file.title).unwrap_or(found.label);
         Ok(Stage { title, run: None, problem })
     }

@@ -13,6 +13,7 @@ use crate::engine;
 use crate::fault::Fault;
 use crate::plan::Plan;
 use crate::planner::Preparing;
+use crate::problem;
 
 /// Host memory for the shots that a run keeps, bytes.
 const MEMORY: usize = 256 << 20;
@@ -66,7 +67,7 @@ impl Trials {
     /// If it makes none.
     pub fn problem_of(&self, run: usize, scene: &radiosity::Scene) -> Result<Arc<Problem>, Fault> {
         let settings = &self.plan.problems[self.plan.runs[run].problem].settings;
-        engine::problem(scene, settings)
+        problem::problem(scene, settings)
             .map_err(|(field, message)| Fault::of_file(&self.file, format!("{field}: {message}")))
     }
 
