@@ -242,7 +242,7 @@ fn a_run_tells_of_all_greater_thresholds() {
     let thresholds = [0.5, 0.1, 0.02, 0.005, 0.002];
     for rules in [rules(), knobs()] {
         let rules = Rules { patch_threshold: 0.002, ..rules };
-        let (run, machine) = (run(1, rules), paragon());
+        let (run, machine) = (Run { problem: two_rooms_cut([1; 3]), ..run(1, rules) }, paragon());
         let seen = Rc::new(RefCell::new(Vec::new()));
         let visit = {
             let seen = Rc::clone(&seen);
