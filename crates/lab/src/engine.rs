@@ -207,10 +207,16 @@ pub fn stops(
             });
         }
     };
-    network::rung(run, &machine, point)
-        .and_then(|rung| Ok(machine.network_on(rung)?))
-        .and_then(|network| virtwall::visit_stops(run, &machine, network, thresholds, visit))
-        .map_err(|error| error.to_string())?;
+    let rung = network::rung(run, &machine, point).map_err(|error| error.to_string())?;
+    // Among several environments a run is not the beginning of another one.
+    let together = if run.problem.environments.len() == 1 { thresholds.len().max(1) } else { 1 };
+    for thresholds in thresholds.chunks(together) {
+        let network = machine.network_on(rung).map_err(|error| error.to_string())?;
+        let mut run = run.clone();
+        run.rules.patch_threshold = thresholds[thresholds.len() - 1];
+        virtwall::visit_stops(&run, &machine, network, thresholds, visit.clone())
+            .map_err(|error| error.to_string())?;
+    }
     Ok(stops.take())
 }
 

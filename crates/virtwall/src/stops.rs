@@ -1,9 +1,8 @@
-//! What a run on one processor would have come to, had it stopped earlier.
+//! What a run in one local environment would have come to, had it stopped earlier.
 //!
-//! Patches are shot in the order of their values, and a source that was handed on is worth as much as its
-//! emitter (choice C13): so until the best patch falls below a threshold, a run with a lower one is the same.
-//! But for parts of patches that were handed on, each worth its share: among several environments a run with
-//! a lower threshold does patches before them that this threshold leaves, so that what it tells is near only.
+//! Patches are shot in the order of their values, so until the best falls below a threshold, a run with a lower
+//! one is the same. Among several environments it is not: a part of a patch that was handed on is worth less
+//! than the patch, so that patches below the threshold may be shot before it, and it may raise others above.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -83,7 +82,7 @@ impl<V: FnMut(Instant<'_>)> Observer for Stops<V> {
     }
 }
 
-/// Simulates a run on one processor and shows what it would have ended with at each of `thresholds`, parts
+/// Simulates a run in one environment and shows what it would have ended with at each of `thresholds`, parts
 /// of the brightest patch, in falling order. Those below the run's own show its end.
 pub fn visit_stops(
     run: &Run,
