@@ -239,9 +239,9 @@ fn an_instant_agrees_with_the_recording() {
 /// but for the end itself, in one environment.
 #[test]
 fn a_run_tells_of_all_greater_thresholds() {
-    let thresholds = [0.5, 0.1, 0.02, 0.005, 0.002];
+    let thresholds = [0.5, 0.02, 0.015, 0.01, 0.005];
     for rules in [rules(), knobs()] {
-        let rules = Rules { patch_threshold: 0.002, ..rules };
+        let rules = Rules { patch_threshold: 0.005, ..rules };
         let (run, machine) = (Run { problem: two_rooms_cut([1; 3]), ..run(1, rules) }, paragon());
         let seen = Rc::new(RefCell::new(Vec::new()));
         let visit = {
