@@ -66,21 +66,13 @@ impl Room {
     }
 
     /// From the patch's centre, by Lambert's contour integral.
-<<<<<<< HEAD
-    fn exact_of_centre(&self, patch: u32) -> Vec<f64> {
-=======
     fn of_centre(&self, patch: u32) -> Vec<f64> {
->>>>>>> tuner
         let centre: DVec3 = self.environment.patches[patch as usize].centre;
         self.exactly(patch, |pair| pair.from_element(centre))
     }
 
     /// From all of the patch.
-<<<<<<< HEAD
-    fn exact_of_area(&self, patch: u32) -> Vec<f64> {
-=======
     fn of_area(&self, patch: u32) -> Vec<f64> {
->>>>>>> tuner
         let area = self.patches.areas[patch as usize];
         let tolerance = Tolerance { absolute: 1e-7, relative: 1e-5 };
         self.exactly(patch, |pair| pair.exchange(tolerance).value / area)
@@ -112,11 +104,7 @@ fn exponent(points: &[(f64, f64)]) -> f64 {
 #[test]
 fn directions_err_little_and_less_with_more() {
     let room = Room::open();
-<<<<<<< HEAD
-    let exact: Vec<_> = Room::sources().map(|patch| room.exact_of_centre(patch)).collect();
-=======
     let exact: Vec<_> = Room::sources().map(|patch| room.of_centre(patch)).collect();
->>>>>>> tuner
     for row in &exact {
         assert!((row.iter().sum::<f64>() - 1.0).abs() < 1e-9);
     }
@@ -135,11 +123,7 @@ fn directions_err_little_and_less_with_more() {
 #[test]
 fn cut_sources_err_little_in_all() {
     let room = Room::open();
-<<<<<<< HEAD
-    let exact: Vec<_> = Room::sources().map(|patch| room.exact_of_area(patch)).collect();
-=======
     let exact: Vec<_> = Room::sources().map(|patch| room.of_area(patch)).collect();
->>>>>>> tuner
     let [whole, quarters, adaptive] =
         [(f64::INFINITY, 1), (f64::INFINITY, 2), (3.0, 4)].map(|(nearer_than, most)| {
             room.misdirected(30_976, SourceSplit { nearer_than, most }, &exact)
