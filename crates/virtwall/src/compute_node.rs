@@ -1,5 +1,6 @@
 //! The program of a compute node: Figure 9 of RR-3008.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use multicomputer::Rank;
@@ -52,21 +53,25 @@ impl Shared {
 
     /// Have a shot that this run will ask for cast ahead by threads that have nothing else to do, and
     /// those that it leads to as well. Where its rays end does not depend on what happens meanwhile.
-    fn foresee(self: &Arc<Self>, parcel: &Parcel) {
+    fn foresee(self: &Arc<Self>, parcel: Cow<'_, Parcel>) {
         if !self.kept.helpers().want_jobs() {
             return;
         }
-        let parcel = self.problem.arriving(parcel.clone());
+        // Most arrive as they were sent, and most are known: those are not copied.
+        let parcel = match parcel.through {
+            Some(_) => Cow::Owned(self.problem.arriving(parcel.into_owned())),
+            None => parcel,
+        };
         if !self.kept.foresee(&parcel) {
             return;
         }
-        let shared = Arc::clone(self);
+        let (shared, parcel) = (Arc::clone(self), parcel.into_owned());
         self.kept.helpers().add(Box::new(move || {
             let Shared { problem, kept, .. } = &*shared;
             kept.cast_ahead(problem, &parcel, |shot| {
                 let pixels_a_bit = shared.rules.shooting.pixels_a_bit;
                 let onward = problem.onward(&parcel, shot, pixels_a_bit);
-                onward.for_each(|parcel| shared.foresee(&parcel));
+                onward.for_each(|parcel| shared.foresee(Cow::Owned(parcel)));
             });
         }));
     }
@@ -190,7 +195,7 @@ impl ComputeNode {
     /// The best local patches that are left will be shot sooner or later.
     fn foresee_local(&mut self) {
         if self.selecting && self.shared.kept.helpers().want_jobs() {
-            self.region.new_best_sources(|parcel| self.shared.foresee(&parcel));
+            self.region.new_best_sources(|parcel| self.shared.foresee(Cow::Owned(parcel)));
         }
     }
 
@@ -293,7 +298,7 @@ impl ComputeNode {
     ) {
         let Some(first) = source.first() else { return };
         let owner = self.shared.owners[first.environment as usize];
-        source.iter().for_each(|part| self.shared.foresee(part));
+        source.iter().for_each(|part| self.shared.foresee(Cow::Borrowed(part)));
         self.tally.parcels_sent += 1;
         self.tally.sent += power_of(&source);
         if owner == process.rank() {

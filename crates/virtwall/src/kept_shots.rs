@@ -133,9 +133,6 @@ impl KeptShots {
 
     /// Take note that a shot will be asked for; whether casting it ahead makes sense.
     pub(crate) fn foresee(&self, parcel: &Parcel) -> bool {
-        if !self.helpers.want_jobs() {
-            return false;
-        }
         let key = ShotKey::of(parcel);
         let mut table = self.table();
         let new = !table.entries.contains_key(&key);

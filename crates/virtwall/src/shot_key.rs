@@ -6,7 +6,8 @@ use xxhash_rust::xxh3::Xxh3Default;
 use crate::message::Parcel;
 
 /// What decides a shot of a problem: environment, source and mask, whose length tells the hemisphere. The
-/// mask, and where its rays start, stand here by a 128-bit digest: among 10⁹ of them two share theirs with a probability below 10⁻²⁰.
+/// mask, and where its rays start, stand here by a 128-bit digest: among 10⁹ of them two share theirs with
+/// a probability below 10⁻²⁰.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct ShotKey {
     environment: u32,
