@@ -2,6 +2,9 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use crate::fault::WrongField;
 
 /// The error that results are to stay below; the knobs that trade accuracy for time are found.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
@@ -18,7 +21,7 @@ pub struct AccuracyFields {
 }
 
 /// The fields that it takes the place of.
-pub const REPLACED: [&str; 7] = [
+const REPLACED: [&str; 7] = [
     "hemisphere.directions",
     "hemisphere.pixels",
     "hemisphere.pixels_a_bit",
@@ -29,15 +32,23 @@ pub const REPLACED: [&str; 7] = [
 ];
 
 impl AccuracyFields {
-    /// Refuses what nobody means.
+    /// Refuses what nobody means, and knobs beside it in the experiment that it stands in.
     ///
     /// # Errors
     /// The field, and what is wrong with it.
-    pub fn check(&self) -> Result<(), (&'static str, String)> {
+    pub fn check(&self, experiment: &Value) -> Result<(), WrongField> {
         let error = self.relative_l2;
-        match (1e-4..=1.0).contains(&error) {
-            true => Ok(()),
-            false => Err(("accuracy.relative_l2", format!("{error}; expected from 0.0001 to 1"))),
+        if !(1e-4..=1.0).contains(&error) {
+            return Err(("accuracy.relative_l2", format!("{error}; expected from 0.0001 to 1")));
+        }
+        let set = |field: &&str| {
+            let pointer = format!("/{}", field.replace('.', "/"));
+            experiment.pointer(&pointer).is_some()
+        };
+        let message = "stands beside \"accuracy\", which finds it; expected one of the two";
+        match REPLACED.into_iter().find(set) {
+            None => Ok(()),
+            Some(field) => Err((field, message.to_owned())),
         }
     }
 }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use crate::digest::FileDigest;
 use crate::file;
+use crate::find::named_from;
 use crate::table::Table;
 
 /// Errors for which the cheapest setting is told.
@@ -53,10 +54,7 @@ pub fn cheapest(table: &Table, sweeps: &[String]) -> Vec<Cheapest> {
 /// # Errors
 /// What is wrong with it.
 pub fn read_sweep(folder: &Path, name: &str) -> Result<(Table, FileDigest), String> {
-    let path = folder.join(name);
-    if !path.is_file() {
-        return Err(format!("\"{name}\": no such file; expected a path from this file"));
-    }
+    let path = named_from(folder, name)?;
     let bytes = file::read(&path).map_err(|fault| fault.to_string())?;
     let table = Table::from_csv(&bytes)
         .map_err(|error| format!("\"{name}\": {error}; expected a runs.csv"))?;

@@ -11,7 +11,7 @@ use crate::file;
 use crate::find::Found;
 use crate::open_machine::OpenMachine;
 use crate::plan::Plan;
-use crate::planner::Preparing;
+use crate::preparing::Preparing;
 use crate::scene::Scene;
 
 /// Validates an experiment, a machine, a trace, a scene description or an OBJ file, with all that

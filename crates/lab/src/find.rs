@@ -44,6 +44,18 @@ pub struct Found {
     pub label: String,
 }
 
+/// A file at a path from the folder of the one that names it.
+///
+/// # Errors
+/// If there is none: a message that says so.
+pub fn named_from(folder: &Path, name: &str) -> Result<PathBuf, String> {
+    let path = folder.join(name);
+    match path.is_file() {
+        true => Ok(path),
+        false => Err(format!("\"{name}\": no such file; expected a path from this file")),
+    }
+}
+
 /// Finds what the name or path `name` in a file in `folder` means. A name is looked up in
 /// the shelf's folder beside the file's folder, then in the current folder; a path (with a
 /// slash or an ending) is relative to `folder`, else to the current folder.

@@ -7,7 +7,6 @@ use std::path::{Path, PathBuf};
 use reference::parallel;
 use serde_json::Value;
 
-use crate::accuracy::REPLACED;
 use crate::answer::{self, Stored};
 use crate::cheapest::{least_time, read_sweep};
 use crate::comparison::Comparison;
@@ -17,7 +16,7 @@ use crate::engine;
 use crate::experiment::Experiment;
 use crate::fault::Fault;
 use crate::file::{PLAIN, is_plain};
-use crate::find::{Found, Shelf, find};
+use crate::find::{Found, Shelf, find, named_from};
 use crate::host_clock::HostClock;
 use crate::json;
 use crate::machine_file::MachineFile;
@@ -25,6 +24,7 @@ use crate::pilot::{Host, Pilots};
 use crate::place::Place;
 use crate::plan::{Equipment, Plan, Prepared, Run};
 use crate::plots::check_plots;
+use crate::preparing::Preparing;
 use crate::problem;
 use crate::program::program;
 use crate::scene::Scene;
@@ -34,24 +34,6 @@ use crate::sweep::{Point, Sweep};
 use crate::table::Table;
 use crate::tuned::Tuned;
 use crate::tuner::tune;
-
-/// How a plan is made ready. None of it changes the plan.
-pub struct Preparing<'a> {
-    /// Threads that make scenes ready and find knobs side by side, at least 1.
-    pub threads: usize,
-    /// Host memory for shots of pilot runs, bytes.
-    pub memory: usize,
-    /// Whether to find the knobs that an experiment leaves open; else they stand at their defaults.
-    pub finding: bool,
-    /// Hears of every pilot run: scene, accuracy asked for, pilot runs made for both.
-    pub on_pilot: &'a (dyn Fn(&str, f64, usize) + Sync),
-}
-
-impl Default for Preparing<'_> {
-    fn default() -> Self {
-        Preparing { threads: 1, memory: 1 << 28, finding: true, on_pilot: &|_, _, _| () }
-    }
-}
 
 impl Plan {
     /// Reads an experiment file, lays `--set path=value` arguments over it, and validates all of
@@ -87,6 +69,7 @@ impl Plan {
             machines: Vec::new(),
             references: BTreeMap::new(),
             stored: Vec::new(),
+            sweeps: BTreeMap::new(),
         };
         planner.plan()
     }
@@ -104,6 +87,8 @@ struct Planner<'a> {
     /// Which of those stored, by file and scene.
     references: BTreeMap<(PathBuf, usize), usize>,
     stored: Vec<Stored>,
+    /// Sweeps that accuracies are held against, by name.
+    sweeps: BTreeMap<String, (Table, FileDigest)>,
 }
 
 /// A point of the sweep whose scene is yet to be read.
@@ -128,10 +113,6 @@ impl Planner<'_> {
         let drafts = self.sweep.points.iter().map(|point| self.draft(point));
         let mut drafts = drafts.collect::<Result<Vec<Draft>, Fault>>()?;
         let scenes = self.load()?;
-        let mut swept = Vec::new();
-        for draft in &drafts {
-            swept.extend(self.accuracy_sweep(draft)?.map(|(_, digest)| digest));
-        }
         if self.preparing.finding {
             self.tune(&mut drafts, &scenes)?;
         }
@@ -151,7 +132,7 @@ impl Planner<'_> {
             scenes.iter().flat_map(|(scene, _)| scene.digests.clone()).collect();
         files.extend(self.machines.iter().flat_map(|machine| machine.digests.clone()));
         files.extend(compared);
-        files.extend(swept);
+        files.extend(self.sweeps.values().map(|(_, digest)| digest.clone()));
         files.extend(self.stored.iter().map(|stored| stored.digest.clone()));
         files.sort();
         files.dedup();
@@ -192,7 +173,7 @@ impl Planner<'_> {
         suits(&typed, &self.machines[machine].machine)
             .map_err(|(field, message)| self.fault(point, field, message))?;
         let scene = self.scene(point, &typed)?;
-        self.check_accuracy(point, &typed)?;
+        self.accuracy(point, &typed)?;
         Ok(Draft { point, typed, scene, machine, tuned: None })
     }
 
@@ -264,21 +245,18 @@ impl Planner<'_> {
         Ok(self.scenes.len() - 1)
     }
 
-    /// Refuses knobs beside an accuracy, which finds them.
-    fn check_accuracy(&self, point: &Point, typed: &Experiment) -> Result<(), Fault> {
+    /// Checks the accuracy that a point asks for, and reads what it is held against, once.
+    fn accuracy(&mut self, point: &Point, typed: &Experiment) -> Result<(), Fault> {
         let Some(accuracy) = &typed.accuracy else { return Ok(()) };
-        accuracy.check().map_err(|(field, message)| self.fault(point, field, message))?;
-        let set = |field: &&&str| {
-            let pointer = format!("/{}", field.replace('.', "/"));
-            point.value.pointer(&pointer).is_some()
-        };
-        match REPLACED.iter().find(set) {
-            None => Ok(()),
-            Some(field) => {
-                let message = "stands beside \"accuracy\", which finds it; expected one of the two";
-                Err(self.fault(point, field, message.to_owned()))
-            }
+        let checked = accuracy.check(&point.value);
+        checked.map_err(|(field, message)| self.fault(point, field, message))?;
+        let Some(name) = accuracy.sweep.as_ref() else { return Ok(()) };
+        if !self.sweeps.contains_key(name) {
+            let read = read_sweep(self.folder, name)
+                .map_err(|message| self.fault(point, "accuracy.sweep", message))?;
+            self.sweeps.insert(name.clone(), read);
         }
+        Ok(())
     }
 
     /// Finds the knobs of the points that ask for an accuracy; those that differ in their processors
@@ -322,10 +300,11 @@ impl Planner<'_> {
         let refuse = |(field, message)| self.fault(draft.point, field, message);
         let settings = Settings::of(experiment, scene).map_err(refuse)?;
         let machine = &self.machines[draft.machine].machine;
-        let target = experiment.accuracy.as_ref().map_or(1.0, |accuracy| accuracy.relative_l2);
-        let sweep = self.accuracy_sweep(draft)?;
+        let accuracy = experiment.accuracy.as_ref();
+        let target = accuracy.map_or(1.0, |accuracy| accuracy.relative_l2);
+        let sweep = accuracy.and_then(|accuracy| self.sweeps.get(accuracy.sweep.as_ref()?));
         let sweep_time_s =
-            sweep.and_then(|(table, _)| least_time(&table, &experiment.scene, target));
+            sweep.and_then(|(table, _)| least_time(table, &experiment.scene, target));
         let watch = |runs| (self.preparing.on_pilot)(&experiment.scene, target, runs);
         let memory = self.preparing.memory / self.preparing.threads;
         let host = Host { memory, threads, watch: &watch };
@@ -339,13 +318,6 @@ impl Planner<'_> {
                 .map_err(|message| refuse(("accuracy.relative_l2", message)))?,
             Tuned { sweep_time_s, ..tuned },
         ))
-    }
-
-    /// The sweep that an accuracy is held against, if there is one.
-    fn accuracy_sweep(&self, draft: &Draft) -> Result<Option<(Table, FileDigest)>, Fault> {
-        let name = draft.typed.accuracy.as_ref().and_then(|accuracy| accuracy.sweep.as_ref());
-        let read = name.map(|name| read_sweep(self.folder, name));
-        read.transpose().map_err(|message| self.fault(draft.point, "accuracy.sweep", message))
     }
 
     /// Reads all scenes, each once.
@@ -407,11 +379,8 @@ impl Planner<'_> {
         let Some(name) = &first.compare_with else {
             return Ok((Comparison::default(), None));
         };
-        let path = self.folder.join(name);
-        if !path.is_file() {
-            let message = format!("\"{name}\": no such file; expected a path from this file");
-            return Err(self.document.fault(&Place::of("compare_with"), message));
-        }
+        let path = named_from(self.folder, name)
+            .map_err(|message| self.document.fault(&Place::of("compare_with"), message))?;
         Ok((Comparison::read(&path)?, Some(FileDigest::of(&path, name)?)))
     }
 }

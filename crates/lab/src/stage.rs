@@ -16,7 +16,7 @@ use crate::fault::Fault;
 use crate::find::{Shelf, find};
 use crate::place::Place;
 use crate::plan::Plan;
-use crate::planner::Preparing;
+use crate::preparing::Preparing;
 use crate::problem;
 use crate::scene::Scene;
 use crate::settings::Settings;

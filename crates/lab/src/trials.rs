@@ -12,7 +12,7 @@ use crate::document::Document;
 use crate::engine;
 use crate::fault::Fault;
 use crate::plan::Plan;
-use crate::planner::Preparing;
+use crate::preparing::Preparing;
 use crate::problem;
 
 /// Host memory for the shots that a run keeps, bytes.
