@@ -7,8 +7,8 @@ mod common;
 use std::fs;
 use std::sync::Arc;
 
-use common::Project;
-use lab::{On, OpenScene, Options, Plan, Preparing, Results, Viewing, carry_out};
+use common::{Project, options};
+use lab::{On, OpenScene, Options, Plan, Preparing, Results, carry_out};
 use radiosity::{LocalEnvironment, PatchSize, Space};
 use reference::{Dense, Method, Patches, Problem, Reference, Subject};
 
@@ -47,17 +47,7 @@ fn project(change: impl Fn(&mut Reference)) -> Project {
 
 fn run(project: &Project) -> Results {
     let plan = Plan::read(&project.path("experiments/x.json"), &[], &Preparing::default()).unwrap();
-    let options = Options {
-        threads: 1,
-        fresh: true,
-        on: On::Simulation,
-        memory: 1 << 28,
-        shot_files: None,
-        traces: None,
-        viewing: Viewing::None,
-        feed: None,
-        pulse: false,
-    };
+    let options = Options { fresh: true, memory: 1 << 28, ..options(1) };
     let endings = carry_out(&plan, &project.path("out"), &options, Arc::new(|_| {})).unwrap();
     Results::of(&plan, &endings, On::Simulation).unwrap()
 }

@@ -8,23 +8,13 @@ use std::fs;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use common::{Project, SWEEP};
-use lab::{Endings, On, Options, Plan, Preparing, Results, ShotFiles, Viewing, carry_out};
+use common::{Project, SWEEP, options};
+use lab::{Endings, On, Options, Plan, Preparing, Results, ShotFiles, carry_out};
 
 fn swept(project: &Project, memory: usize) -> (Results, Endings) {
     let plan = Plan::read(&project.path("experiments/x.json"), &[], &Preparing::default()).unwrap();
     let shot_files = Some(ShotFiles::open(&project.path("shots")).unwrap());
-    let options = Options {
-        threads: 2,
-        fresh: true,
-        on: On::Simulation,
-        memory,
-        shot_files,
-        traces: None,
-        viewing: Viewing::None,
-        feed: None,
-        pulse: false,
-    };
+    let options = Options { fresh: true, memory, shot_files, ..options(2) };
     let endings = carry_out(&plan, &project.path("out"), &options, Arc::new(|_| {})).unwrap();
     assert_eq!(options.shot_files.unwrap().trouble(), None);
     (Results::of(&plan, &endings, On::Simulation).unwrap(), endings)
@@ -95,20 +85,9 @@ fn a_folder_that_has_gone_is_told() {
     let plan = Plan::read(&project.path("experiments/x.json"), &[], &Preparing::default()).unwrap();
     let shot_files = Some(ShotFiles::open(&project.path("gone")).unwrap());
     fs::remove_dir(project.path("gone")).unwrap();
-    let (on, memory) = (On::Simulation, 1 << 30);
-    let options = Options {
-        threads: 1,
-        fresh: true,
-        on,
-        memory,
-        shot_files,
-        traces: None,
-        viewing: Viewing::None,
-        feed: None,
-        pulse: false,
-    };
+    let options = Options { fresh: true, shot_files, ..options(1) };
     let endings = carry_out(&plan, &project.path("out"), &options, Arc::new(|_| {})).unwrap();
-    assert!(Results::of(&plan, &endings, on).unwrap().table == results.table);
+    assert!(Results::of(&plan, &endings, On::Simulation).unwrap().table == results.table);
     let trouble = options.shot_files.unwrap().trouble().unwrap();
     assert!(trouble.contains("gone: "), "{trouble}");
 }
@@ -124,18 +103,7 @@ fn sweeps_at_a_time_do_not_harm_each_other() {
                     Plan::read(&project.path("experiments/x.json"), &[], &Preparing::default())
                         .unwrap();
                 let shot_files = Some(ShotFiles::open(&project.path("shots")).unwrap());
-                let (on, memory) = (On::Simulation, 1 << 20);
-                let options = Options {
-                    threads: 1,
-                    fresh: false,
-                    on,
-                    memory,
-                    shot_files,
-                    traces: None,
-                    viewing: Viewing::None,
-                    feed: None,
-                    pulse: false,
-                };
+                let options = Options { memory: 1 << 20, shot_files, ..options(1) };
                 let out = tempfile::tempdir().unwrap();
                 let endings = carry_out(&plan, out.path(), &options, Arc::new(|_| {})).unwrap();
                 Results::of(&plan, &endings, On::Simulation).unwrap().table

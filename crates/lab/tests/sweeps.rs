@@ -9,22 +9,8 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use common::{Project, SWEEP};
-use lab::{Event, On, Options, Plan, Preparing, Results, Viewing, carry_out};
-
-fn options(threads: usize) -> Options {
-    Options {
-        threads,
-        fresh: false,
-        on: On::Simulation,
-        memory: 1 << 30,
-        shot_files: None,
-        traces: None,
-        viewing: Viewing::None,
-        feed: None,
-        pulse: false,
-    }
-}
+use common::{Project, SWEEP, options};
+use lab::{Event, On, Options, Plan, Preparing, Results, carry_out};
 
 fn plan(project: &Project) -> Plan {
     Plan::read(&project.path("experiments/x.json"), &[], &Preparing::default()).unwrap()

@@ -6,8 +6,8 @@ mod common;
 
 use std::sync::Arc;
 
-use common::Project;
-use lab::{On, Options, Plan, Preparing, Results, Viewing, carry_out};
+use common::{Project, options};
+use lab::{On, Options, Plan, Preparing, Results, carry_out};
 
 fn experiment(more: &str) -> String {
     format!(
@@ -29,17 +29,7 @@ fn run(threads: usize) -> Results {
     let preparing = Preparing { threads, ..Preparing::default() };
     let plan = Plan::read(&project.path("experiments/x.json"), &[], &preparing).unwrap();
     assert_eq!(plan.settings_found().len(), 1, "processors share a setting");
-    let options = Options {
-        threads,
-        fresh: true,
-        on: On::Simulation,
-        memory: 1 << 28,
-        shot_files: None,
-        traces: None,
-        viewing: Viewing::None,
-        feed: None,
-        pulse: false,
-    };
+    let options = Options { fresh: true, memory: 1 << 28, ..options(threads) };
     let endings = carry_out(&plan, &project.path("out"), &options, Arc::new(|_| {})).unwrap();
     Results::of(&plan, &endings, On::Simulation).unwrap()
 }

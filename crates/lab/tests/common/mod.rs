@@ -1,8 +1,11 @@
 //! A small project in a temporary folder: a box with a lamp, the Paragon, an experiment.
 
+#![allow(dead_code, reason = "not every test uses all")]
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use lab::{On, Options, Viewing};
 use tempfile::TempDir;
 
 /// A project folder that is gone with the test.
@@ -43,6 +46,21 @@ impl Project {
         let path = self.path(name);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
         fs::write(path, text).unwrap();
+    }
+}
+
+/// Simulated runs on so many threads, nothing else asked for.
+pub fn options(threads: usize) -> Options {
+    Options {
+        threads,
+        fresh: false,
+        on: On::Simulation,
+        memory: 1 << 30,
+        shot_files: None,
+        traces: None,
+        viewing: Viewing::None,
+        feed: None,
+        pulse: false,
     }
 }
 
