@@ -26,9 +26,11 @@ struct Depths {
 impl Mask {
     /// A mask with every pixel true: what a local source starts with (§3.3).
     pub fn all(pixels: u32) -> Mask {
-        let mut mask = Mask::of(vec![u64::MAX; words_for(pixels)], pixels);
-        mask.clear_padding();
-        mask
+        let mut words = vec![u64::MAX; words_for(pixels)];
+        if let Some(last) = words.last_mut() {
+            *last = last_word(pixels);
+        }
+        Mask::of(words, pixels)
     }
 
     /// A mask with every pixel false.
@@ -39,13 +41,9 @@ impl Mask {
     /// A mask from its words, lowest pixel in the lowest bit of the first word; `None` when their
     /// number does not fit the pixels or a bit beyond the last pixel is set.
     pub fn from_words(words: Vec<u64>, pixels: u32) -> Option<Mask> {
-        let mask = Mask::of(words, pixels);
-        if mask.words.len() != words_for(pixels) {
-            return None;
-        }
-        let mut cleared = mask.clone();
-        cleared.clear_padding();
-        (cleared == mask).then_some(mask)
+        let fits = words.len() == words_for(pixels);
+        let spilled = words.last().is_some_and(|last| last & !last_word(pixels) != 0);
+        (fits && !spilled).then(|| Mask::of(words, pixels))
     }
 
     /// A mask from its integers; `None` when one is beyond those of so many bits.
@@ -236,12 +234,6 @@ impl Mask {
             *mine |= theirs;
         }
     }
-
-    fn clear_padding(&mut self) {
-        if let (Some(last), bits @ 1..) = (self.words.last_mut(), self.pixels % 64) {
-            *last &= (1 << bits) - 1;
-        }
-    }
 }
 
 /// The bits of a word in runs of `length`.
@@ -252,6 +244,11 @@ fn groups(length: u32) -> impl Iterator<Item = u64> {
 
 fn words_for(pixels: u32) -> usize {
     pixels.div_ceil(64) as usize
+}
+
+/// The last of so many pixels' words where all are true.
+fn last_word(pixels: u32) -> u64 {
+    u64::MAX >> (pixels.wrapping_neg() % 64)
 }
 
 #[cfg(test)]

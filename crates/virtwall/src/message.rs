@@ -232,11 +232,19 @@ fn encode_parcel(parcel: &Parcel, to: &mut Vec<u8>) {
     }
     to.extend(form_factor.to_le_bytes());
     match mask.steps() {
-        None => mask.travelling().iter().for_each(|word| to.extend(word.to_le_bytes())),
+        None => encode_words(&mask.travelling(), to),
         Some((steps, DepthBits::Eight)) => to.extend(steps.iter().map(|&steps| steps as u8)),
         Some((steps, DepthBits::Sixteen)) => {
             steps.iter().for_each(|steps| to.extend(steps.to_le_bytes()));
         }
+    }
+}
+
+fn encode_words(words: &[u64], to: &mut Vec<u8>) {
+    let start = to.len();
+    to.resize(start + words.len() * 8, 0);
+    for (place, word) in to[start..].chunks_exact_mut(8).zip(words) {
+        place.copy_from_slice(&word.to_le_bytes());
     }
 }
 
@@ -273,8 +281,9 @@ fn decode_mask(from: &[u8], pixels: u32, layout: u32) -> Result<Mask, DecodeErro
                 .filter(|mask| mask.pixels() == pixels)
         }
         None => {
-            let words = from.chunks(8).map(|chunk| Reader(chunk).take().map(u64::from_le_bytes));
-            Mask::arrived(words.collect::<Result<_, _>>()?, pixels, 1 << layout)
+            let (words, rest) = from.as_chunks();
+            let words = words.iter().map(|&word| u64::from_le_bytes(word)).collect();
+            Mask::arrived(words, pixels, 1 << layout).filter(|_| rest.is_empty())
         }
     };
     mask.ok_or(DecodeError("mask and pixels differ"))
