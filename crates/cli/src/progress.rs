@@ -73,20 +73,14 @@ impl Progress {
         let mut counts = self.counts.lock().unwrap_or_else(PoisonError::into_inner);
         match event {
             Event::Found => counts.found += 1,
-            Event::Shot { run } => *counts.shots.entry(run).or_default() += 1,
-            Event::Pulse { run, pulse } => drop(counts.pulses.insert(run, pulse)),
+            Event::Shots { run, shots } => _ = counts.shots.insert(run, shots),
+            Event::Pulse { run, pulse } => _ = counts.pulses.insert(run, pulse),
             Event::Finished { run } => {
                 counts.pulses.remove(&run);
                 let shots = counts.shots.remove(&run).unwrap_or_default();
                 counts.expected.insert(self.plan.runs[run].problem, shots);
                 counts.finished += 1;
             }
-        }
-        // Shots come by the thousand: one in sixty-four is enough to be shown.
-        if let Event::Shot { run } = event
-            && counts.shots.get(&run).is_some_and(|shots| shots % 64 != 0)
-        {
-            return;
         }
         self.show(&mut counts);
     }

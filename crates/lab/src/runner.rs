@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::io;
 use std::path::Path;
 use std::rc::Rc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use radiosity::Rgb;
@@ -49,15 +50,20 @@ pub struct Options {
     pub pulse: bool,
 }
 
+/// Shots come by the thousand, and all threads tell the same watcher: one in so many is told.
+const SHOTS_TOLD: u64 = 64;
+
 /// Something that happened while a plan is carried out.
 #[derive(Clone, Copy, Debug)]
 pub enum Event {
     /// A run was found finished, by a sweep that was interrupted.
     Found,
-    /// A run has shot one source more.
-    Shot {
+    /// A run has shot some sources more.
+    Shots {
         /// Index into [`Plan::runs`].
         run: usize,
+        /// How many it has shot so far.
+        shots: u64,
     },
     /// How a run is; told now and then.
     Pulse {
@@ -249,7 +255,13 @@ impl Desk<'_> {
         let Prepared { problem, scene_bytes, .. } = &self.plan.problems[run.problem];
         let machine = &self.plan.machines[run.machine].machine;
         let (watch, index) = (Arc::clone(&self.watch), task.run);
-        let on_shot = Arc::new(move || watch(Event::Shot { run: index }));
+        let shots = AtomicU64::new(0);
+        let on_shot = Arc::new(move || {
+            let shots = shots.fetch_add(1, Ordering::Relaxed) + 1;
+            if shots.is_multiple_of(SHOTS_TOLD) {
+                watch(Event::Shots { run: index, shots });
+            }
+        });
         let point = &run.point;
         let nothing_kept = Arc::new(KeptShots::new(0));
         let kept = if point.reuse_shots { &task.kept } else { &nothing_kept };
