@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use multicomputer::Rank;
 use radiosity::{Operation, Shot, Work};
@@ -43,6 +44,9 @@ pub(crate) struct Shared {
     /// What a wall patch must be worth to be handed on.
     pub wall_threshold: f64,
     pub on_shot: Arc<dyn Fn() + Send + Sync>,
+    /// Whether the last shot was one that an earlier run, or this, had asked for: then so are those
+    /// that follow, as a rule.
+    pub known: AtomicBool,
 }
 
 impl Shared {
@@ -51,10 +55,22 @@ impl Shared {
         self.processors
     }
 
+    /// Cast a source's rays, or find where they end.
+    fn shot(&self, parcel: &Parcel) -> Shot {
+        let (shot, known) = self.kept.shot(&self.problem, parcel);
+        self.known.store(known, Ordering::Relaxed);
+        shot
+    }
+
+    /// Whether it makes sense to look for shots to be cast ahead.
+    fn want_jobs(&self) -> bool {
+        !self.known.load(Ordering::Relaxed) && self.kept.helpers().want_jobs()
+    }
+
     /// Have a shot that this run will ask for cast ahead by threads that have nothing else to do, and
     /// those that it leads to as well. Where its rays end does not depend on what happens meanwhile.
     fn foresee(self: &Arc<Self>, parcel: Cow<'_, Parcel>) {
-        if !self.kept.helpers().want_jobs() {
+        if !self.want_jobs() {
             return;
         }
         // Most arrive as they were sent, and most are known: those are not copied.
@@ -194,7 +210,7 @@ impl ComputeNode {
 
     /// The best local patches that are left will be shot sooner or later.
     fn foresee_local(&mut self) {
-        if self.selecting && self.shared.kept.helpers().want_jobs() {
+        if self.selecting && self.shared.want_jobs() {
             self.region.new_best_sources(|parcel| self.shared.foresee(Cow::Owned(parcel)));
         }
     }
@@ -220,9 +236,8 @@ impl ComputeNode {
         }
         let environment = source.first().map(|part| footprint::environment(part.environment));
         process.touch([footprint::PROGRAM].into_iter().chain(environment)).await;
-        let Shared { problem, kept, on_shot, .. } = &*self.shared;
         let kernel = || {
-            let shots: Vec<Shot> = source.iter().map(|part| kept.shot(problem, part)).collect();
+            let shots: Vec<Shot> = source.iter().map(|part| self.shared.shot(part)).collect();
             let work = shots.iter().fold(Work::NONE, |all, shot| all + shot.work);
             ((shots, work), work)
         };
@@ -230,7 +245,7 @@ impl ComputeNode {
         for part in source {
             process.fetch(part).await;
         }
-        on_shot();
+        (self.shared.on_shot)();
         self.tally.work += work;
         for (part, shot) in source.iter().zip(&shots) {
             let reflected = self.region.receive(part, shot);

@@ -25,13 +25,15 @@ struct State {
     jobs: VecDeque<Job>,
     /// Threads with work of their own.
     working: usize,
+    /// Threads that wait for a job.
+    waiting: usize,
 }
 
 impl Helpers {
     /// So many threads, each of which calls [`Helpers::work_then_help`], once.
     pub fn of(threads: usize) -> Helpers {
         Helpers {
-            state: Mutex::new(State { jobs: VecDeque::new(), working: threads }),
+            state: Mutex::new(State { working: threads, ..State::default() }),
             changed: Condvar::new(),
             threads,
         }
@@ -59,8 +61,14 @@ impl Helpers {
 
     /// Put a job up for whoever helps.
     pub(crate) fn add(&self, job: Job) {
-        self.held().jobs.push_back(job);
-        self.changed.notify_one();
+        let mut state = self.held();
+        state.jobs.push_back(job);
+        let waiting = state.waiting > 0;
+        drop(state);
+        // Waking is a call of the system, even if there is nobody to wake.
+        if waiting {
+            self.changed.notify_one();
+        }
     }
 
     /// A job that waits: the oldest, since it is likely to be needed first.
@@ -76,7 +84,9 @@ impl Helpers {
             if job.is_some() {
                 return job;
             }
+            state.waiting += 1;
             state = self.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
+            state.waiting -= 1;
         }
         None
     }

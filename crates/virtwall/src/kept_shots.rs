@@ -58,6 +58,8 @@ struct Table {
     entries: BTreeMap<ShotKey, Entry>,
     /// Bytes of shots that are there until they are asked for.
     ahead: usize,
+    /// Threads that wait for a shot that another is at.
+    waiting: usize,
     counts: ShotCounts,
 }
 
@@ -119,14 +121,15 @@ impl KeptShots {
         &self.helpers
     }
 
-    /// The shot of a parcel: a kept one, or cast now.
-    pub(crate) fn shot(&self, problem: &Problem, parcel: &Parcel) -> Shot {
+    /// The shot of a parcel: a kept one, or cast now; and whether it had been asked for before.
+    pub(crate) fn shot(&self, problem: &Problem, parcel: &Parcel) -> (Shot, bool) {
         match self.claim(ShotKey::of(parcel)) {
-            Err(casting) => self.obtain(problem, parcel, casting, |_| ()),
-            Ok(code) => {
+            Err(casting) => (self.obtain(problem, parcel, casting, |_| ()), false),
+            Ok((code, found)) => {
                 let environment = &problem.environments[parcel.environment as usize];
-                decode(&code, environment, parcel.mask.pixels())
-                    .unwrap_or_else(|_| cast(problem, parcel))
+                let shot = decode(&code, environment, parcel.mask.pixels())
+                    .unwrap_or_else(|_| cast(problem, parcel));
+                (shot, found == Found::InMemory)
             }
         }
     }
@@ -158,8 +161,8 @@ impl KeptShots {
         self.obtain(problem, parcel, casting, tell);
     }
 
-    /// The bytes of a shot, or that the caller must obtain it.
-    fn claim(&self, key: ShotKey) -> Result<Arc<[u8]>, Casting<'_>> {
+    /// The bytes of a shot and where they were found, or that the caller must obtain it.
+    fn claim(&self, key: ShotKey) -> Result<(Arc<[u8]>, Found), Casting<'_>> {
         let mut table = self.table();
         loop {
             match table.entries.get_mut(&key) {
@@ -175,7 +178,7 @@ impl KeptShots {
                         table.entries.remove(&key);
                         table.ahead -= code.len() + OVERHEAD;
                     }
-                    return Ok(code);
+                    return Ok((code, found));
                 }
                 // While another thread is at it, do something useful.
                 Some(Entry::Casting) => match self.helpers.take() {
@@ -185,7 +188,9 @@ impl KeptShots {
                         table = self.table();
                     }
                     None => {
+                        table.waiting += 1;
                         table = self.arrived.wait(table).unwrap_or_else(PoisonError::into_inner);
+                        table.waiting -= 1;
                     }
                 },
             }
@@ -264,8 +269,12 @@ impl Drop for Casting<'_> {
                 table.entries.insert(self.key, Entry::There { code, found, kept });
             }
         }
+        let waiting = table.waiting > 0;
         drop(table);
-        self.kept.arrived.notify_all();
+        // Waking is a call of the system, even if there is nobody to wake.
+        if waiting {
+            self.kept.arrived.notify_all();
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! A run: a problem on some processors, under some rules.
 
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use desim::Stalled;
 use multicomputer::{MachineError, Rank};
@@ -89,6 +90,7 @@ impl Run {
             processors,
             wall_threshold: brightest * self.rules.wall_threshold,
             on_shot: Arc::clone(&self.on_shot),
+            known: AtomicBool::default(),
         });
         let nodes = regions.into_iter().enumerate();
         let nodes = nodes.map(|(rank, region)| ComputeNode::new(&shared, region, rank)).collect();
