@@ -6,6 +6,7 @@ use std::process::Command;
 use std::sync::Arc;
 
 use multicomputer::{CacheLevel, Caches};
+use reference::parallel;
 use serde::Serialize;
 use virtwall::{Layout, Parcel, Problem, Storage};
 
@@ -24,13 +25,17 @@ const SHORTEST_LINE: u64 = 32;
 const LIGHTS: usize = 3;
 const UNCOUNTED: usize = 1;
 
-/// Where arrays and the stack begin in memory is luck, and decides which of them fall on each other in a
-/// direct-mapped cache. Of several placements the mean counts, valgrind's and the model's: bytes from which
-/// the allocator gives an array pages of its own and bytes by which the stack begins further down; bytes that
-/// the model leaves between arrays.
-const PLACEMENTS: [(u64, usize); 5] =
-    [(4_096, 0), (131_072, 3_100), (1 << 30, 6_200), (131_072, 9_300), (1 << 30, 12_400)];
-const GAPS: [u64; 7] = [16, 1_040, 2_064, 3_088, 5_008, 6_032, 7_056];
+/// Where arrays and the stack lie in memory is luck, and decides which of them fall on each other in a
+/// direct-mapped cache. Of many placements the mean counts, valgrind's and the model's. Of the native kernel
+/// these are varied: from how many bytes on the allocator gives an array pages of its own, and, by so many
+/// bytes each time, where the stack begins.
+const OWN_PAGES: [u64; 4] = [4_096, 16_384, 131_072, 1 << 30];
+const STACK: usize = 6_704;
+const PLACEMENTS: usize = 16;
+/// Translations hardly care.
+const PLACEMENTS_OF_PAGES: usize = 4;
+/// In the model every array lies somewhere else each time.
+const PLACEMENTS_OF_MODEL: usize = 40;
 
 /// The native kernel's records as the compiler lays them out: of a polygon's 120 B a test reads normal and
 /// offset, and one whose plane is met where its edges are.
@@ -46,7 +51,7 @@ const NATIVE: Layout = Layout {
     slot: 4,
     patch: [304, 96, 16],
     scalars: Layout::PLAIN_C.scalars,
-    gap: 0,
+    luck: None,
     by_environment: false,
 };
 
@@ -89,10 +94,12 @@ pub fn measure(machine: &str) -> Result<Vec<Row>, String> {
     let mut all = Vec::new();
     for scene in SCENES {
         for environments in ENVIRONMENTS {
-            let mut rows = rows(machine, (["1", "2"], &levels), scene, environments)?;
+            let caches = (["1", "2"], &levels, PLACEMENTS);
+            let mut rows = rows(machine, caches, scene, environments)?;
             if let Some(pages) = &pages {
                 // Valgrind takes them for a cache like any other.
-                let found = self::rows(machine, (["pages", ""], pages), scene, environments)?;
+                let pages = (["pages", ""], pages, PLACEMENTS_OF_PAGES);
+                let found = self::rows(machine, pages, scene, environments)?;
                 rows.extend(found.into_iter().take(1));
             }
             let ratios: Vec<String> = rows.iter().map(|row| row.ratio.to_string()).collect();
@@ -120,15 +127,21 @@ fn levels(machine: &str) -> Result<([CacheLevel; 2], Option<[CacheLevel; 2]>), S
 
 fn rows(
     machine: &str,
-    (names, levels): ([&'static str; 2], &[CacheLevel; 2]),
+    (names, levels, placements): ([&'static str; 2], &[CacheLevel; 2], usize),
     scene: &str,
     environments: u32,
 ) -> Result<Vec<Row>, String> {
-    let counts = PLACEMENTS.map(|placement| counted(scene, environments, levels, placement));
+    let count = |placement: usize| {
+        let place = (OWN_PAGES[placement % OWN_PAGES.len()], STACK * placement);
+        counted(scene, environments, levels, place)
+    };
+    let threads = parallel::host_threads();
+    let counts = parallel::map(placements, threads, count, || ());
     let counts = counts.into_iter().collect::<Result<Vec<Counts>, String>>()?;
     let problem = shots::problem(scene, environments)?;
     let shots = shots::of_lights(&problem, LIGHTS);
-    let models = GAPS.map(|gap| modelled(&problem, &shots, levels, gap));
+    let model = |luck: usize| modelled(&problem, &shots, levels, luck as u64);
+    let models = parallel::map(PLACEMENTS_OF_MODEL, threads, model, || ());
     let [references, ..] = counts[0];
     let percent = |misses: u64| rounded(100.0 * misses as f64 / references as f64);
     let row = |level: usize| {
@@ -194,9 +207,14 @@ fn uncounted(shots: &[Parcel]) -> usize {
 }
 
 /// Misses of each level as the model has them.
-fn modelled(problem: &Arc<Problem>, shots: &[Parcel], levels: &[CacheLevel], gap: u64) -> Vec<u64> {
+fn modelled(
+    problem: &Arc<Problem>,
+    shots: &[Parcel],
+    levels: &[CacheLevel],
+    luck: u64,
+) -> Vec<u64> {
     let caches = Caches::new(levels, None);
-    let mut storage = Storage::new(problem, Layout { gap, ..NATIVE }, caches);
+    let mut storage = Storage::new(problem, Layout { luck: Some(luck), ..NATIVE }, caches);
     let (first, others) = shots.split_at(uncounted(shots));
     first.iter().for_each(|parcel| storage.shoot(parcel));
     let before: Vec<u64> = storage.caches().misses().collect();

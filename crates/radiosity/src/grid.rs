@@ -170,6 +170,19 @@ impl Grid {
         above.clamp(1, planes.len() - 1) as u32 - 1
     }
 
+    /// The planes that [`Grid::cell_of`] looks at to find a point's cell, by axis and number, in turn.
+    pub(crate) fn planes_looked_at(&self, point: DVec3) -> Vec<(usize, u32)> {
+        let mut looked_at = Vec::new();
+        for axis in 0..3 {
+            let numbers: Vec<u32> = (0..self.planes[axis].len() as u32).collect();
+            _ = numbers.partition_point(|&plane| {
+                looked_at.push((axis, plane));
+                self.planes[axis][plane as usize] <= point[axis]
+            });
+        }
+        looked_at
+    }
+
     /// The cells that a polygon meets, widened by the scene's tolerance: a hit that rounding puts
     /// on the wrong side of a plane still finds its polygon there.
     fn cells_met(&self, scene: &Scene, polygon: &Polygon) -> Vec<u32> {

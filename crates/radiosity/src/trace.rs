@@ -13,6 +13,13 @@ use crate::space::Space;
 pub enum Record {
     /// The direction of a pixel.
     Direction(u32),
+    /// A plane of the grid that the search for the source's cell looks at.
+    Search {
+        /// Across which axis it lies.
+        axis: usize,
+        /// Its number there.
+        plane: u32,
+    },
     /// A cell of the grid, by its place, x running fastest, and its list of so many polygons.
     Cell {
         /// Its place.
@@ -60,9 +67,11 @@ pub fn trace(
 ) {
     let [tangent, bitangent, normal] = hemisphere.frame(source.centre, source.normal);
     let start = space.grid.cell_of(source.centre);
+    let looked_at = space.grid.planes_looked_at(source.centre);
     let mut left = Vec::new();
     for pixel in mask.ones() {
         touch(Record::Direction(pixel));
+        looked_at.iter().for_each(|&(axis, plane)| touch(Record::Search { axis, plane }));
         let d = hemisphere.directions[pixel as usize];
         let ray = Ray::new(source.centre, tangent * d.x + bitangent * d.y + normal * d.z);
         if let Some(side) = trace_ray(space, environment, &ray, (source, start), &mut touch)

@@ -4,6 +4,8 @@ use std::sync::Arc;
 
 use multicomputer::Caches;
 use radiosity::{Block, Hemisphere, Mask, Record, trace};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 
 use crate::message::Parcel;
 use crate::problem::Problem;
@@ -35,8 +37,9 @@ pub struct Layout {
     /// What each ray, each cell, each test of a polygon and each of a neighbour's plane touches that is no
     /// record, place by place.
     pub scalars: [[u64; 4]; 6],
-    /// Between an array and the next: an allocator's own.
-    pub gap: u64,
+    /// Arrays lie one after the other, an allocator's own 16 bytes between them; with a seed up to a page
+    /// further apart, as luck has it.
+    pub luck: Option<u64>,
     /// Whether each environment keeps its cells and polygons by itself, as it does on a machine without
     /// shared memory.
     pub by_environment: bool,
@@ -72,10 +75,13 @@ impl Layout {
             [96, 0, 0, 0],       // where the pieces of polygons are
             [224, 32, 0, 0],     // where the grid and the polygons are
         ],
-        gap: 16,
+        luck: None,
         by_environment: true,
     };
 }
+
+/// A page of memory, bytes.
+const PAGE: u64 = 4096;
 
 /// A processor's caches, and the addresses of what its kernels touch.
 pub struct Storage {
@@ -108,13 +114,14 @@ struct Polygons {
 /// Memory, given to arrays one after the other.
 struct Room {
     next: u64,
-    gap: u64,
+    luck: Option<ChaCha8Rng>,
 }
 
 impl Room {
     fn take(&mut self, records: usize, bytes: u64) -> u64 {
         let start = self.next;
-        self.next = (start + records as u64 * bytes).next_multiple_of(16) + self.gap;
+        let apart = self.luck.as_mut().map_or(0, |luck| luck.random_range(0..PAGE / 16) * 16);
+        self.next = (start + records as u64 * bytes).next_multiple_of(16) + 16 + apart;
         start
     }
 }
@@ -126,7 +133,7 @@ impl Storage {
         let environments = &problem.environments;
         let mask_bytes = u64::from(problem.hemisphere.pixels()).div_ceil(64) * 8;
         let directions = problem.hemispheres().map(|h| h.directions.len()).sum();
-        let mut room = Room { next: 0, gap: layout.gap };
+        let mut room = Room { next: 0, luck: layout.luck.map(ChaCha8Rng::seed_from_u64) };
         let scalars = layout.scalars.map(|touched| touched[0]);
         let stack = room.take(1, scalars[0]);
         let mut storage = Storage {
@@ -255,7 +262,7 @@ impl Storage {
                 touch(mask, pixel / 64, [8, 8]);
                 touch(directions, pixel, [layout.direction; 2]);
             }
-            Record::Crossing { axis, plane } => {
+            Record::Search { axis, plane } | Record::Crossing { axis, plane } => {
                 touch(self.crossings[axis], plane, [layout.crossing; 2]);
             }
             Record::Cell { place, polygons } => {

@@ -106,12 +106,14 @@ fn a_trace_touches_what_the_slow_kernel_counts() {
         let work = shoot_plainly(space, environment, hemisphere, &source, &mask).work;
         let (mut rays, mut cells, mut listed, mut hits) = (0, 0, 0, 0);
         let (mut crossings, mut words, mut planes) = (0, 0, 0);
+        let mut searched = Vec::new();
         trace(space, environment, hemisphere, &source, &mask, |record| match record {
             Record::Direction(_) => rays += 1,
             Record::Cell { polygons, .. } => {
                 (cells, listed) = (cells + 1, listed + u64::from(polygons));
             }
             Record::Plane(polygon) => assert_ne!(polygon, source.polygon),
+            Record::Search { axis, plane } => searched.push((axis, plane)),
             Record::Crossing { .. } => crossings += 1,
             Record::Edges { edges, .. } => {
                 assert!((1..=4).contains(&edges));
@@ -133,6 +135,16 @@ fn a_trace_touches_what_the_slow_kernel_counts() {
         // Three on entry, one a step from cell to cell.
         assert_eq!(crossings, 2 * rays + cells);
         assert!(hits <= work.of(Operation::Hit) && hits > 0);
+        // A search for a cell has looked at both of its planes, but for the grid's outermost.
+        let cell = space.grid.cell_of(source.centre);
+        for (axis, &low) in cell.iter().enumerate() {
+            let inner =
+                [low, low + 1].into_iter().filter(|&p| p > 0 && p < space.grid.cells()[axis]);
+            for plane in inner {
+                let times = searched.iter().filter(|&&found| found == (axis, plane)).count();
+                assert!(times as u64 >= rays, "{axis} {plane}: {times}");
+            }
+        }
         shots += 1;
     }
     assert!(shots > 5 && tests > 0);
