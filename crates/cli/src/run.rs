@@ -146,7 +146,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let endings = lab::carry_out(&plan, &out, &options, watch).map_err(Exit::failure)?;
     progress.end();
 
-    let results = Results::of(&plan, &endings, on).map_err(Exit::failure)?;
+    let results = Results::of(&plan, &endings, &options).map_err(Exit::failure)?;
     lab::write_host_times(&out, &endings, clock.seconds(), threads).map_err(Exit::failure)?;
     results.write(&out).map_err(Exit::failure)?;
     let mut output = output(&plan, &results, &endings);

@@ -13,8 +13,8 @@ use crate::runner::Endings;
 /// Bytes that recordings may take in a report, about.
 const LIMIT: usize = 19_000_000;
 
-/// The recordings of a plan's runs, packed; none if there are none.
-pub fn recorded(plan: &Plan, endings: &Endings) -> Option<Recorded> {
+/// The recordings of a plan's runs, packed by so many threads; none if there are none.
+pub fn recorded(plan: &Plan, endings: &Endings, threads: usize) -> Option<Recorded> {
     let mut groups: Vec<(usize, Vec<usize>)> = Vec::new();
     let mut answers: Vec<Option<Arc<Vec<Rgb>>>> = vec![None; plan.problems.len()];
     let mut reels = Vec::new();
@@ -43,5 +43,5 @@ pub fn recorded(plan: &Plan, endings: &Endings) -> Option<Recorded> {
             film,
         });
     }
-    (!reels.is_empty()).then(|| Recorded::of(&reels, LIMIT))
+    (!reels.is_empty()).then(|| Recorded::of(&reels, LIMIT, threads))
 }

@@ -22,7 +22,7 @@ use crate::place::Place;
 use crate::plan::Plan;
 use crate::reels;
 use crate::report;
-use crate::runner::Endings;
+use crate::runner::{Endings, Options};
 use crate::saved::Saved;
 use crate::table::Table;
 
@@ -37,14 +37,14 @@ pub struct Results {
 }
 
 impl Results {
-    /// The results of a plan.
+    /// The results of a plan that was carried out so.
     ///
     /// # Errors
     /// None is known: all is made in memory.
-    pub fn of(plan: &Plan, endings: &Endings, on: On) -> io::Result<Results> {
+    pub fn of(plan: &Plan, endings: &Endings, options: &Options) -> io::Result<Results> {
         let table = Table::of(plan, endings);
-        let manifest = manifest(plan, &table, on)?;
-        let recorded = reels::recorded(plan, endings);
+        let manifest = manifest(plan, &table, options.on)?;
+        let recorded = reels::recorded(plan, endings, options.threads.max(1));
         Ok(Results { table, manifest, recorded })
     }
 

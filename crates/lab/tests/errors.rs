@@ -8,7 +8,7 @@ use std::fs;
 use std::sync::Arc;
 
 use common::{Project, options};
-use lab::{On, OpenScene, Options, Plan, Preparing, Results, carry_out};
+use lab::{OpenScene, Options, Plan, Preparing, Results, carry_out};
 use radiosity::{LocalEnvironment, PatchSize, Space};
 use reference::{Dense, Method, Patches, Problem, Reference, Subject};
 
@@ -49,7 +49,7 @@ fn run(project: &Project) -> Results {
     let plan = Plan::read(&project.path("experiments/x.json"), &[], &Preparing::default()).unwrap();
     let options = Options { fresh: true, memory: 1 << 28, ..options(1) };
     let endings = carry_out(&plan, &project.path("out"), &options, Arc::new(|_| {})).unwrap();
-    Results::of(&plan, &endings, On::Simulation).unwrap()
+    Results::of(&plan, &endings, &options).unwrap()
 }
 
 #[test]

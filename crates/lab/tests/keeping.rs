@@ -9,15 +9,15 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use common::{Project, SWEEP, options};
-use lab::{Endings, On, Options, Plan, Preparing, Results, ShotFiles, carry_out};
+use lab::{Endings, Options, Plan, Preparing, Results, ShotFiles, carry_out};
 
 fn swept(project: &Project, memory: usize) -> (Results, Endings) {
     let plan = Plan::read(&project.path("experiments/x.json"), &[], &Preparing::default()).unwrap();
     let shot_files = Some(ShotFiles::open(&project.path("shots")).unwrap());
     let options = Options { fresh: true, memory, shot_files, ..options(2) };
     let endings = carry_out(&plan, &project.path("out"), &options, Arc::new(|_| {})).unwrap();
-    assert_eq!(options.shot_files.unwrap().trouble(), None);
-    (Results::of(&plan, &endings, On::Simulation).unwrap(), endings)
+    assert_eq!(options.shot_files.as_ref().unwrap().trouble(), None);
+    (Results::of(&plan, &endings, &options).unwrap(), endings)
 }
 
 fn files(project: &Project) -> Vec<PathBuf> {
@@ -87,7 +87,7 @@ fn a_folder_that_has_gone_is_told() {
     fs::remove_dir(project.path("gone")).unwrap();
     let options = Options { fresh: true, shot_files, ..options(1) };
     let endings = carry_out(&plan, &project.path("out"), &options, Arc::new(|_| {})).unwrap();
-    assert!(Results::of(&plan, &endings, On::Simulation).unwrap().table == results.table);
+    assert!(Results::of(&plan, &endings, &options).unwrap().table == results.table);
     let trouble = options.shot_files.unwrap().trouble().unwrap();
     assert!(trouble.contains("gone: "), "{trouble}");
 }
@@ -106,7 +106,7 @@ fn sweeps_at_a_time_do_not_harm_each_other() {
                 let options = Options { memory: 1 << 20, shot_files, ..options(1) };
                 let out = tempfile::tempdir().unwrap();
                 let endings = carry_out(&plan, out.path(), &options, Arc::new(|_| {})).unwrap();
-                Results::of(&plan, &endings, On::Simulation).unwrap().table
+                Results::of(&plan, &endings, &options).unwrap().table
             })
         });
         sweeps.map(|sweep| sweep.join().unwrap())

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use common::{Project, SWEEP, options};
-use lab::{Event, On, Options, Plan, Preparing, Results, carry_out};
+use lab::{Event, Options, Plan, Preparing, Results, carry_out};
 
 fn plan(project: &Project) -> Plan {
     Plan::read(&project.path("experiments/x.json"), &[], &Preparing::default()).unwrap()
@@ -26,7 +26,7 @@ fn carried_out(plan: &Plan, out: &Path, options: &Options) -> (Results, usize, u
         Event::Shots { .. } | Event::Pulse { .. } => {}
     });
     let endings = carry_out(plan, out, options, watch).unwrap();
-    let results = Results::of(plan, &endings, options.on).unwrap();
+    let results = Results::of(plan, &endings, options).unwrap();
     (results, counts.0.load(Ordering::Relaxed), counts.1.load(Ordering::Relaxed))
 }
 
@@ -208,9 +208,10 @@ fn changed_results_are_not_drawn() {
 fn a_run_that_failed_stands_in_its_row_and_the_others_stay_saved() {
     let project = Project::new(SWEEP);
     let (plan, out) = (plan(&project), project.path("out"));
-    let mut endings = carry_out(&plan, &out, &options(1), Arc::new(|_| {})).unwrap();
+    let options = options(1);
+    let mut endings = carry_out(&plan, &out, &options, Arc::new(|_| {})).unwrap();
     endings.runs[0] = Some(Err("nothing under way".to_owned()));
-    let results = Results::of(&plan, &endings, On::Simulation).unwrap();
+    let results = Results::of(&plan, &endings, &options).unwrap();
     assert_eq!(results.failures(), 1);
     let table = &results.table;
     assert_eq!(table.cell(&table.rows[0], "failure"), "nothing under way");

@@ -7,7 +7,7 @@ mod common;
 use std::sync::Arc;
 
 use common::{Project, options};
-use lab::{On, Options, Plan, Preparing, Results, carry_out};
+use lab::{Options, Plan, Preparing, Results, carry_out};
 
 fn experiment(more: &str) -> String {
     format!(
@@ -31,7 +31,7 @@ fn run(threads: usize) -> Results {
     assert_eq!(plan.settings_found().len(), 1, "processors share a setting");
     let options = Options { fresh: true, memory: 1 << 28, ..options(threads) };
     let endings = carry_out(&plan, &project.path("out"), &options, Arc::new(|_| {})).unwrap();
-    Results::of(&plan, &endings, On::Simulation).unwrap()
+    Results::of(&plan, &endings, &options).unwrap()
 }
 
 #[test]

@@ -106,8 +106,8 @@ impl<'a> Data<'a> {
         name
     }
 
-    /// All blocks as elements of the page, made side by side.
-    pub fn packed(&self) -> String {
+    /// All blocks as elements of the page, made side by side by so many threads, at least 1.
+    pub fn packed(&self, threads: usize) -> String {
         let element = |(name, block): &(String, Block)| {
             let packed = block().pack();
             format!("<script type=\"application/octet-stream\" id=\"{name}\">{packed}</script>\n")
@@ -118,7 +118,6 @@ impl<'a> Data<'a> {
             let mine = numbers.map_while(|n| Some((n, element(self.blocks.get(n)?))));
             mine.collect::<Vec<(usize, String)>>()
         };
-        let threads = thread::available_parallelism().map_or(1, |threads| threads.get());
         let mut made: Vec<(usize, String)> = thread::scope(|scope| {
             let workers: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
             // A packer cannot panic; if one does, so does this.

@@ -42,11 +42,11 @@ pub struct Recorded {
 const MARKS: [&str; 2] = ["<!-- recorded: -->\n", "<!-- :recorded -->\n"];
 
 impl Recorded {
-    /// The recordings of some runs, at most about `limit` bytes of them.
-    pub fn of(reels: &[Reel], limit: usize) -> Recorded {
+    /// The recordings of some runs, at most about `limit` bytes of them, packed by so many threads.
+    pub fn of(reels: &[Reel], limit: usize, threads: usize) -> Recorded {
         let told: Vec<Told> = reels.iter().map(Told::of).collect();
         let data = Data::of(&told, limit);
-        let (index, blocks) = (index_element(&data.index), data.packed());
+        let (index, blocks) = (index_element(&data.index), data.packed(threads));
         Recorded { answers: marked(&answers(&told)), data: marked(&(index + &blocks)) }
     }
 

@@ -138,17 +138,17 @@ fn the_ledger_holds_all_time() {
 fn recordings_are_packed_once_and_the_same() {
     let (problem, machine) = (problem(), machine());
     let films = [1, 2, PROCESSORS].map(|processors| film(&problem, processors).1);
-    let pack = |films: &[Film], limit: usize| {
+    let pack = |films: &[Film], threads: usize| {
         let reels: Vec<Reel> = films.iter().map(|film| reel(&problem, &machine, film)).collect();
-        Recorded::of(&reels, limit)
+        Recorded::of(&reels, usize::MAX, threads)
     };
-    let [one, all] = [&films[..1], &films].map(|films| pack(films, usize::MAX));
+    let [one, all] = [&films[..1], &films].map(|films| pack(films, 2));
     let shots = |recorded: &Recorded| {
         let (_, rest) = recorded.data.split_once("id=\"shots-0\">").unwrap();
         rest.split('<').next().unwrap().to_owned()
     };
     assert_eq!(shots(&one), shots(&all), "shots depend on the processors that make them");
-    assert_eq!(all.data, pack(&films, usize::MAX).data);
+    assert_eq!(all.data, pack(&films, 1).data);
     let report = format!("<p>{}</p>{}", all.answers, all.data);
     let again = Recorded::in_report(&report).unwrap();
     assert_eq!((again.answers, again.data), (all.answers, all.data));
@@ -161,15 +161,15 @@ fn what_has_no_room_is_left_out_and_told() {
     let films = [1, 2, PROCESSORS].map(|processors| film(&problem, processors).1);
     let reels: Vec<Reel> = films.iter().map(|film| reel(&problem, &machine, film)).collect();
     let runs = |limit: usize| {
-        let data = Recorded::of(&reels, limit).data;
+        let data = Recorded::of(&reels, limit, 1).data;
         [1, 2, PROCESSORS].map(|n| data.contains(&format!("\"label\":\"room, {n} processors\"")))
     };
-    let whole = Recorded::of(&reels, usize::MAX).data.len();
+    let whole = Recorded::of(&reels, usize::MAX, 1).data.len();
     let mut shown: Vec<[bool; 3]> = (0..25).rev().map(|i| runs(i * whole / 6)).collect();
     shown.dedup();
     let [all, ends] = [[true; 3], [true, false, true]];
     assert_eq!(shown, [all, ends, [true, false, false], [false; 3]]);
-    assert!(Recorded::of(&reels, 0).data.contains("0 of 3 recorded runs are here"));
+    assert!(Recorded::of(&reels, 0, 1).data.contains("0 of 3 recorded runs are here"));
 }
 
 /// Asks for a part after every seventh shot.
