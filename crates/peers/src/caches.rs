@@ -27,9 +27,9 @@ const UNCOUNTED: usize = 1;
 
 /// Where arrays and the stack lie in memory is luck, and decides which of them fall on each other in a
 /// direct-mapped cache: of 400 placements in the model one missed 34 times as often as half of them did. So
-/// the median of many counts, valgrind's and the model's. Of the native kernel
-/// these are varied: from how many bytes on the allocator gives an array pages of its own, and, by so many
-/// bytes each time, where the stack begins.
+/// the median of many counts, valgrind's and the model's. Of the native kernel these are varied: from how
+/// many bytes on the allocator gives an array pages of its own, and, by so many bytes each time, where the
+/// stack begins.
 const OWN_PAGES: [u64; 4] = [4_096, 16_384, 131_072, 1 << 30];
 const STACK: usize = 6_704;
 const PLACEMENTS: usize = 16;
