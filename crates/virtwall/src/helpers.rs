@@ -2,7 +2,9 @@
 
 use std::collections::VecDeque;
 use std::mem;
-use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use crate::bell::Bell;
 
 /// Work that changes nothing but how soon its result is there.
 type Job = Box<dyn FnOnce() + Send>;
@@ -15,7 +17,7 @@ const MOST_JOBS: usize = 1_024;
 #[derive(Default)]
 pub struct Helpers {
     state: Mutex<State>,
-    changed: Condvar,
+    changed: Bell,
     /// Threads in all.
     threads: usize,
 }
@@ -25,8 +27,6 @@ struct State {
     jobs: VecDeque<Job>,
     /// Threads with work of their own.
     working: usize,
-    /// Threads that wait for a job.
-    waiting: usize,
 }
 
 impl Helpers {
@@ -34,7 +34,7 @@ impl Helpers {
     pub fn of(threads: usize) -> Helpers {
         Helpers {
             state: Mutex::new(State { working: threads, ..State::default() }),
-            changed: Condvar::new(),
+            changed: Bell::default(),
             threads,
         }
     }
@@ -61,14 +61,8 @@ impl Helpers {
 
     /// Put a job up for whoever helps.
     pub(crate) fn add(&self, job: Job) {
-        let mut state = self.held();
-        state.jobs.push_back(job);
-        let waiting = state.waiting > 0;
-        drop(state);
-        // Waking is a call of the system, even if there is nobody to wake.
-        if waiting {
-            self.changed.notify_one();
-        }
+        self.held().jobs.push_back(job);
+        self.changed.ring_for_one();
     }
 
     /// A job that waits: the oldest, since it is likely to be needed first.
@@ -84,9 +78,7 @@ impl Helpers {
             if job.is_some() {
                 return job;
             }
-            state.waiting += 1;
-            state = self.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
-            state.waiting -= 1;
+            state = self.changed.wait(state);
         }
         None
     }
@@ -104,7 +96,7 @@ impl Drop for Working<'_> {
         let mut state = self.0.held();
         state.working = state.working.saturating_sub(1);
         drop(state);
-        self.0.changed.notify_all();
+        self.0.changed.ring();
     }
 }
 

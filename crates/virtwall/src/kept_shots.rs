@@ -3,10 +3,11 @@
 use std::collections::BTreeMap;
 use std::mem;
 use std::ops::AddAssign;
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use radiosity::{Shot, shoot};
 
+use crate::bell::Bell;
 use crate::helpers::Helpers;
 use crate::memory::Memory;
 use crate::message::Parcel;
@@ -28,7 +29,7 @@ pub struct KeptShots {
     helpers: Arc<Helpers>,
     table: Mutex<Table>,
     /// A shot that was being cast is there.
-    arrived: Condvar,
+    arrived: Bell,
 }
 
 /// Where shots are kept beyond memory and beyond this program's end.
@@ -58,8 +59,6 @@ struct Table {
     entries: BTreeMap<ShotKey, Entry>,
     /// Bytes of shots that are there until they are asked for.
     ahead: usize,
-    /// Threads that wait for a shot that another is at.
-    waiting: usize,
     counts: ShotCounts,
 }
 
@@ -105,7 +104,7 @@ impl KeptShots {
         archive: Option<Box<dyn Archive>>,
     ) -> KeptShots {
         let (memory, helpers) = (Arc::clone(memory), Arc::clone(helpers));
-        KeptShots { memory, archive, helpers, table: Mutex::default(), arrived: Condvar::new() }
+        KeptShots { memory, archive, helpers, table: Mutex::default(), arrived: Bell::default() }
     }
 
     /// What became of the shots asked for so far.
@@ -187,11 +186,7 @@ impl KeptShots {
                         job();
                         table = self.table();
                     }
-                    None => {
-                        table.waiting += 1;
-                        table = self.arrived.wait(table).unwrap_or_else(PoisonError::into_inner);
-                        table.waiting -= 1;
-                    }
+                    None => table = self.arrived.wait(table),
                 },
             }
         }
@@ -269,12 +264,8 @@ impl Drop for Casting<'_> {
                 table.entries.insert(self.key, Entry::There { code, found, kept });
             }
         }
-        let waiting = table.waiting > 0;
         drop(table);
-        // Waking is a call of the system, even if there is nobody to wake.
-        if waiting {
-            self.kept.arrived.notify_all();
-        }
+        self.kept.arrived.ring();
     }
 }
 

@@ -4,6 +4,7 @@
 //! Knows nothing of files, plots or the command line.
 
 mod ambient;
+mod bell;
 mod coarse;
 mod compute_node;
 mod counts;
