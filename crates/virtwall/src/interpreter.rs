@@ -6,7 +6,8 @@ use desim::Time;
 use multicomputer::{self as machine, MachineObserver, Rank, Sent, Stall};
 use radiosity::{Rgb, Shot};
 
-use crate::message::{MessageKind, Parcel};
+use crate::message::Parcel;
+use crate::message_kind::MessageKind;
 use crate::observer::{Activity, Observer, SentMessage, SharedObserver};
 
 /// Stands between a machine, whose nodes compute and send, and an observer, who is told of shots and

@@ -73,60 +73,6 @@ pub struct Sums {
     pub taken: f64,
 }
 
-/// What a message is about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum MessageKind {
-    /// [`Message::Source`].
-    Source,
-    /// [`Message::Update`].
-    Update,
-    /// [`Message::Collect`].
-    Collect,
-    /// [`Message::Sums`].
-    Sums,
-    /// [`Message::StopSelecting`].
-    StopSelecting,
-    /// [`Message::Token`].
-    Token,
-    /// [`Message::Done`].
-    Done,
-    /// [`Message::WallPatch`].
-    WallPatch,
-}
-
-impl MessageKind {
-    /// Every kind, in the order of the bytes with which messages begin.
-    pub const ALL: [MessageKind; 8] = [
-        MessageKind::Source,
-        MessageKind::Update,
-        MessageKind::Collect,
-        MessageKind::Sums,
-        MessageKind::StopSelecting,
-        MessageKind::Token,
-        MessageKind::Done,
-        MessageKind::WallPatch,
-    ];
-
-    /// The kind of an encoded message.
-    pub fn of(bytes: &[u8]) -> Option<MessageKind> {
-        MessageKind::ALL.get(usize::from(*bytes.first()?)).copied()
-    }
-
-    /// Its name, for people.
-    pub fn name(self) -> &'static str {
-        match self {
-            MessageKind::Source => "source",
-            MessageKind::Update => "update",
-            MessageKind::Collect => "collect",
-            MessageKind::Sums => "sums",
-            MessageKind::StopSelecting => "stop selecting",
-            MessageKind::Token => "token",
-            MessageKind::Done => "done",
-            MessageKind::WallPatch => "wall patch",
-        }
-    }
-}
-
 impl Message {
     /// The bytes that travel, little-endian.
     pub fn encode(&self) -> Vec<u8> {
@@ -294,6 +240,7 @@ mod tests {
     use radiosity::glam::DVec3;
 
     use super::*;
+    use crate::message_kind::MessageKind;
 
     fn parcel(pixels: u32) -> Message {
         let mut mask = Mask::none(pixels);

@@ -7,7 +7,8 @@ use desim::{Duration, Time};
 use multicomputer::{Rank, Stall};
 use radiosity::{Rgb, Shot};
 
-use crate::message::{MessageKind, Parcel};
+use crate::message::Parcel;
+use crate::message_kind::MessageKind;
 
 /// Told what happens in a simulated run, in the order of virtual time. The rank that follows those of
 /// the compute nodes is the service node's.

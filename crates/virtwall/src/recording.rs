@@ -4,7 +4,8 @@ use desim::{Duration, Time};
 use multicomputer::{Rank, Stall};
 use radiosity::{Rgb, Shot};
 
-use crate::message::{MessageKind, Parcel};
+use crate::message::Parcel;
+use crate::message_kind::MessageKind;
 use crate::observer::{Activity, Observer, SentMessage, blocked};
 use crate::outcome::EnergyLedger;
 use crate::problem::Problem;

@@ -8,13 +8,14 @@ use multicomputer::{MachineError, Rank};
 use radiosity::Operation;
 use thiserror::Error;
 
-use crate::compute_node::{ComputeNode, Shared};
+use crate::compute_node::ComputeNode;
 use crate::footprint::Thing;
 use crate::kept_shots::KeptShots;
 use crate::problem::Problem;
 use crate::region::Region;
 use crate::rules::Rules;
 use crate::service_node::Collection;
+use crate::shared::Shared;
 use crate::step::Step;
 
 /// What is to be run.
