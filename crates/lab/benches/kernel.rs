@@ -6,8 +6,8 @@ use divan::Bencher;
 use divan::counter::ItemsCount;
 use lab::{OpenScene, RayBench};
 use radiosity::{
-    Hemisphere, HemisphereKind, LocalEnvironment, Mask, PatchSize, Rgb, Shot, Source, Space, shoot,
-    shoot_plainly,
+    Emitter, Hemisphere, HemisphereKind, LocalEnvironment, Mask, PatchSize, Rgb, Shot, Space,
+    shoot, shoot_plainly,
 };
 use virtwall::Decomposition;
 
@@ -29,7 +29,7 @@ fn open(scene: &str) -> OpenScene {
 }
 
 /// How the rays of a source are cast.
-type Cast = fn(&Space, &LocalEnvironment, &Hemisphere, &Source, &Mask) -> Shot;
+type Cast = fn(&Space, &LocalEnvironment, &Hemisphere, &Emitter, &Mask) -> Shot;
 
 /// Each scene as one environment, from random points of random polygons.
 mod whole_scene {
@@ -77,7 +77,7 @@ fn cast_each(bencher: Bencher, scene: &str, cast: Cast) {
     let size = PatchSize { reflector: open.patch_size, emitter: open.emitter_patch_size };
     let decomposition = Decomposition::new(open.cells, cut);
     let space = Space::new(open.scene, open.cells);
-    let sources: Vec<(LocalEnvironment, Source)> = (0..decomposition.environments())
+    let sources: Vec<(LocalEnvironment, Emitter)> = (0..decomposition.environments())
         .map(|number| LocalEnvironment::new(&space, decomposition.block(number), size))
         .filter_map(|environment| source(&space, &environment).map(|source| (environment, source)))
         .collect();
@@ -92,10 +92,10 @@ fn cast_each(bencher: Bencher, scene: &str, cast: Cast) {
 }
 
 /// The patch in the middle of an environment's list.
-fn source(space: &Space, environment: &LocalEnvironment) -> Option<Source> {
+fn source(space: &Space, environment: &LocalEnvironment) -> Option<Emitter> {
     let number = environment.patches.len() / 2;
     let patch = environment.patches.get(number)?;
-    Some(Source {
+    Some(Emitter {
         environment: 0,
         patch: number as u32,
         polygon: patch.polygon,

@@ -21,10 +21,9 @@ pub struct AccuracyFields {
 }
 
 /// The fields that it takes the place of.
-const REPLACED: [&str; 7] = [
+const REPLACED: [&str; 6] = [
     "hemisphere.directions",
     "hemisphere.pixels",
-    "hemisphere.pixels_a_bit",
     "source_split",
     "overshoot",
     "ambient",

@@ -44,10 +44,6 @@ impl Explained<'_> {
         yardstick: &Yardstick,
         dense: &Answer,
     ) -> Result<Causes, String> {
-        let fine = Experiment {
-            hemisphere: crate::hemisphere::Hemisphere { pixels_a_bit: 1, ..self.point.hemisphere },
-            ..self.point.clone()
-        };
         let all_shot = Experiment {
             stop: Stop {
                 patch_threshold: Fraction::parse(ALL_SHOT)?,
@@ -56,16 +52,11 @@ impl Explained<'_> {
             },
             overshoot: 1.0,
             ambient: false,
-            ..fine.clone()
-        };
-        let with_fine_masks = match self.point.hemisphere.pixels_a_bit {
-            1 => radiosity.concat(),
-            _ => self.run(&fine)?,
+            ..self.point.clone()
         };
         // From the run itself to the answer, one cause less at each step.
         let steps = [
             radiosity.concat(),
-            with_fine_masks,
             self.run(&all_shot)?,
             self.centres(dense).solve(),
             dense.radiosity.clone(),
@@ -73,13 +64,7 @@ impl Explained<'_> {
         let mut means: Vec<Vec<Rgb>> = steps.iter().map(|step| yardstick.means(step)).collect();
         means.push(yardstick.radiosity().to_vec());
         let part = |step: usize| yardstick.between(&means[step], &means[step + 1]).relative_l2;
-        Ok(Causes {
-            mask: part(0),
-            stopping: part(1),
-            directions: part(2),
-            sampling: part(3),
-            mesh: part(4),
-        })
+        Ok(Causes { stopping: part(0), directions: part(1), sampling: part(2), mesh: part(3) })
     }
 
     /// Radiosities of another run of the problem, one environment after the other.

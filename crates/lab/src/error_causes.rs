@@ -3,15 +3,13 @@
 use serde::{Deserialize, Serialize};
 
 /// The columns of runs.csv: [`Causes`] by name.
-pub const COLUMNS: [&str; 5] =
-    ["error_mask", "error_stopping", "error_directions", "error_sampling", "error_mesh"];
+pub const COLUMNS: [&str; 4] =
+    ["error_stopping", "error_directions", "error_sampling", "error_mesh"];
 
 /// The parts that make up a run's error, as area-weighted root mean squares relative to what is
 /// reflected. As vectors they add up to the error: so it is at most their sum.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Causes {
-    /// Masks coarser than the hemisphere.
-    pub mask: f64,
     /// What was not shot, over-shooting and the ambient term included.
     pub stopping: f64,
     /// Rays in so many directions in place of all.
@@ -25,7 +23,7 @@ pub struct Causes {
 impl Causes {
     /// The cell of a column.
     pub fn cell(&self, column: &str) -> Option<String> {
-        let parts = [self.mask, self.stopping, self.directions, self.sampling, self.mesh];
+        let parts = [self.stopping, self.directions, self.sampling, self.mesh];
         let (_, part) = COLUMNS.iter().zip(parts).find(|(name, _)| **name == column)?;
         Some(format!("{part:.6e}"))
     }

@@ -128,7 +128,7 @@ pub struct Experiment {
     /// relative to the root mean square of what is reflected.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reference: Option<String>,
-    /// Whether to take each run's error apart, by some more runs: columns error_mask, error_stopping,
+    /// Whether to take each run's error apart, by some more runs: columns error_stopping,
     /// error_directions, error_sampling and error_mesh. It needs a "reference".
     #[serde(default, skip_serializing_if = "is_false")]
     pub error_causes: bool,

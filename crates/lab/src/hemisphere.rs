@@ -22,11 +22,6 @@ pub struct Hemisphere {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1))]
     pub least_pixels: Option<u32>,
-    /// Neighbouring pixels that share a bit of the masks that travel: 1, 2, 4 and so on to 64. All
-    /// pixels are cast, messages are shorter, and where pixels of a bit disagree their majority
-    /// decides.
-    #[serde(skip_serializing_if = "is_single")]
-    pub pixels_a_bit: u32,
     /// Whether the directions are turned about the normal by an angle of each source's own, so
     /// that no ray runs along a plane by habit.
     pub rotated: bool,
@@ -41,7 +36,6 @@ impl Default for Hemisphere {
             directions: Directions::Fibonacci,
             pixels: 30_976,
             least_pixels: None,
-            pixels_a_bit: 1,
             rotated: true,
             by_place: true,
         }
@@ -60,8 +54,4 @@ pub enum Directions {
     Polar,
     /// The concentric map of a square.
     Concentric,
-}
-
-fn is_single(value: &u32) -> bool {
-    *value == 1
 }

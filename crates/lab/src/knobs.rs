@@ -38,11 +38,6 @@ pub fn check(point: &Experiment) -> Result<(), (&'static str, String)> {
         let message = format!("{least}; expected 1 to {}, the pixels", point.hemisphere.pixels);
         return Err(("hemisphere.least_pixels", message));
     }
-    let pixels = point.hemisphere.pixels_a_bit;
-    if !(pixels.is_power_of_two() && pixels <= 64) {
-        let message = format!("{pixels}; expected 1, 2, 4, 8, 16, 32 or 64");
-        return Err(("hemisphere.pixels_a_bit", message));
-    }
     Ok(())
 }
 
@@ -51,7 +46,6 @@ pub fn shooting(point: &Experiment) -> Shooting {
     let SplitFields { most, nearer_than } = point.source_split;
     Shooting {
         split: SourceSplit { nearer_than: nearer_than.unwrap_or(f64::INFINITY), most },
-        pixels_a_bit: point.hemisphere.pixels_a_bit,
         overshoot: point.overshoot,
         ambient: point.ambient,
     }

@@ -3,7 +3,7 @@
 use desim::Time;
 use multicomputer::Rank;
 use radiosity::{Rgb, Shot};
-use virtwall::{EnergyLedger, MessageKind, Observer, Parcel, Run, SentMessage};
+use virtwall::{EnergyLedger, MessageKind, Observer, Run, SentMessage, Source};
 
 use crate::host_clock::Interval;
 
@@ -68,12 +68,12 @@ impl<T: FnMut(Pulse)> Observer for Heart<T> {
         self.pulse.messages += u64::from(is_source);
     }
 
-    fn selected(&mut self, _: Time, rank: Rank, source: &Parcel) {
+    fn selected(&mut self, _: Time, rank: Rank, source: &Source) {
         self.shoots[rank] = true;
         self.energy.selected(source);
     }
 
-    fn shot(&mut self, now: Time, rank: Rank, source: &Parcel, shot: &Shot, reflected: Rgb) {
+    fn shot(&mut self, now: Time, rank: Rank, source: &Source, shot: &Shot, reflected: Rgb) {
         self.energy.shot(source, shot, reflected);
         self.pulse.shots += 1;
         if self.interval.is_due() {

@@ -3,7 +3,7 @@
 
 use radiosity::glam::DVec3;
 use radiosity::{
-    Hemisphere, HemisphereError, HemisphereKind, LocalEnvironment, Mask, PatchSize, Rgb, Source,
+    Emitter, Hemisphere, HemisphereError, HemisphereKind, LocalEnvironment, Mask, PatchSize, Rgb,
     Space, Work, shoot, shoot_plainly,
 };
 use rand::{RngExt, SeedableRng};
@@ -20,7 +20,7 @@ pub struct RayBench {
     /// The rays of each source: cosine-weighted, turned as [`Hemisphere::frame`] says.
     pub hemisphere: Hemisphere,
     /// Random points of random polygons.
-    pub sources: Vec<Source>,
+    pub sources: Vec<Emitter>,
 }
 
 impl RayBench {
@@ -62,7 +62,7 @@ impl RayBench {
         })
     }
 
-    fn cast_from(&self, sources: &[Source], plain: bool) -> Work {
+    fn cast_from(&self, sources: &[Emitter], plain: bool) -> Work {
         let mask = Mask::all(self.hemisphere.pixels());
         let cast = if plain { shoot_plainly } else { shoot };
         let shots =
@@ -72,7 +72,7 @@ impl RayBench {
 }
 
 /// A random point of a random polygon, as a source.
-fn random_source(space: &Space, random: &mut ChaCha8Rng) -> Source {
+fn random_source(space: &Space, random: &mut ChaCha8Rng) -> Emitter {
     let polygon = random.random_range(0..space.scene.polygons.len());
     let face = &space.scene.polygons[polygon];
     let corners: Vec<DVec3> = space.scene.corners(face).collect();
@@ -83,7 +83,7 @@ fn random_source(space: &Space, random: &mut ChaCha8Rng) -> Source {
         (a, b) = (1.0 - a, 1.0 - b);
     }
     let [p, q, r] = [corners[0], corners[corner], corners[corner + 1]];
-    Source {
+    Emitter {
         environment: 0,
         patch: 0,
         polygon: polygon as u32,

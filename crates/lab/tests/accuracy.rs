@@ -7,7 +7,7 @@ use std::path::Path;
 use lab::OpenScene;
 use radiosity::glam::DVec3;
 use radiosity::{
-    Hemisphere, HemisphereKind, LocalEnvironment, Mask, PatchSize, Rgb, Source, Space, shoot,
+    Emitter, Hemisphere, HemisphereKind, LocalEnvironment, Mask, PatchSize, Rgb, Space, shoot,
 };
 use reference::{Pair, Patches, Tolerance};
 use virtwall::SourceSplit;
@@ -41,7 +41,7 @@ impl Room {
         let mut found = vec![0.0; self.patches.count()];
         let polygon = self.environment.patches[patch as usize].polygon;
         for part in split.parts(&self.space, &self.environment, patch) {
-            let source = Source {
+            let source = Emitter {
                 environment: 0,
                 patch,
                 polygon,

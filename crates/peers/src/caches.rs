@@ -8,7 +8,7 @@ use std::sync::Arc;
 use multicomputer::{CacheLevel, Caches};
 use reference::parallel;
 use serde::Serialize;
-use virtwall::{Layout, Parcel, Problem, Storage};
+use virtwall::{Layout, Problem, Source, Storage};
 
 use crate::command::run;
 use crate::cpu::rounded;
@@ -203,14 +203,14 @@ fn totals(text: &str) -> Option<Counts> {
 }
 
 /// Shots that are not counted, of so many.
-fn uncounted(shots: &[Parcel]) -> usize {
+fn uncounted(shots: &[Source]) -> usize {
     shots.len() * UNCOUNTED / LIGHTS
 }
 
 /// Misses of each level as the model has them.
 fn modelled(
     problem: &Arc<Problem>,
-    shots: &[Parcel],
+    shots: &[Source],
     levels: &[CacheLevel],
     luck: u64,
 ) -> Vec<u64> {

@@ -6,8 +6,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use radiosity::glam::DVec3;
-use radiosity::{Bounds, End, Light, Mask, Ray, Rgb, Side, Source, Work, cast, shoot};
-use virtwall::{Parcel, Problem};
+use radiosity::{Bounds, Emitter, End, Light, Mask, Ray, Rgb, Side, Work, cast, shoot};
+use virtwall::{Problem, Source};
 
 /// Table 1's experiment on one processor, with other values set.
 ///
@@ -32,7 +32,7 @@ pub fn problem(scene: &str, environments: u32) -> Result<Arc<Problem>, String> {
 }
 
 /// All shots that so many of a scene's lights make, spread evenly over them, one after the other.
-pub fn of_lights(problem: &Problem, lights: usize) -> Vec<Parcel> {
+pub fn of_lights(problem: &Problem, lights: usize) -> Vec<Source> {
     let all = emitters(problem);
     let lights = lights.min(all.len());
     let mut shots = Vec::new();
@@ -40,9 +40,9 @@ pub fn of_lights(problem: &Problem, lights: usize) -> Vec<Parcel> {
         let mut queue = VecDeque::from([all[light * all.len() / lights].clone()]);
         while let Some(parcel) = queue.pop_front() {
             let environment = &problem.environments[parcel.environment as usize];
-            let Parcel { source, mask, .. } = &parcel;
+            let Source { emitter: source, mask, .. } = &parcel;
             let shot = shoot(&problem.space, environment, &problem.hemisphere, source, mask);
-            queue.extend(problem.onward(&parcel, &shot, 1));
+            queue.extend(problem.onward(&parcel, &shot));
             shots.push(parcel);
         }
     }
@@ -50,7 +50,7 @@ pub fn of_lights(problem: &Problem, lights: usize) -> Vec<Parcel> {
 }
 
 /// Every patch that emits, with all its pixels.
-fn emitters(problem: &Problem) -> Vec<Parcel> {
+fn emitters(problem: &Problem) -> Vec<Source> {
     let mut found = Vec::new();
     for (number, environment) in (0..).zip(&problem.environments) {
         let light = Light::new(&problem.space, environment);
@@ -58,13 +58,7 @@ fn emitters(problem: &Problem) -> Vec<Parcel> {
             if light.unshot[patch as usize] != Rgb::ZERO {
                 let source = light.source(&problem.space, environment, number, patch);
                 let mask = Mask::all(problem.hemisphere.pixels());
-                found.push(Parcel {
-                    environment: number,
-                    source,
-                    mask,
-                    form_factor: 1.0,
-                    through: None,
-                });
+                found.push(Source { environment: number, emitter: source, mask, form_factor: 1.0 });
             }
         }
     }
@@ -108,12 +102,12 @@ struct Memory {
 
 /// A source that waits, and its mask's words.
 struct Queued<'a> {
-    parcel: &'a Parcel,
+    parcel: &'a Source,
     words: Vec<u64>,
 }
 
 /// Carry out shots, the first `uncounted` of them for the caches alone.
-pub fn carry_out(problem: &Problem, shots: &[Parcel], uncounted: usize) -> f64 {
+pub fn carry_out(problem: &Problem, shots: &[Source], uncounted: usize) -> f64 {
     let polygons = 0..problem.space.scene.polygons.len() as u32;
     let records = problem.environments.iter().map(|environment| Records {
         patches: vec![PATCH; environment.patches.len()],
@@ -140,7 +134,7 @@ fn counted(problem: &Problem, queued: &mut [Queued<'_>], memory: &mut Memory) ->
 /// Shoot a source, make the masks for the neighbours, update all patches, and look for the greatest.
 fn shoot_and_update(problem: &Problem, queued: &mut Queued<'_>, memory: &mut Memory) -> f64 {
     let Queued { parcel, words } = queued;
-    let Parcel { environment: number, source, .. } = parcel;
+    let Source { environment: number, emitter: source, .. } = parcel;
     let environment = &problem.environments[*number as usize];
     let frame = problem.hemisphere.frame(source.centre, source.normal);
     let Records { patches, pieces } = &mut memory.records[*number as usize];
@@ -173,7 +167,7 @@ fn shoot_and_update(problem: &Problem, queued: &mut Queued<'_>, memory: &mut Mem
     patches.iter().map(|patch| patch.energy).fold(0.0, f64::max)
 }
 
-fn ray(problem: &Problem, source: &Source, frame: &[DVec3; 3], pixel: usize) -> Ray {
+fn ray(problem: &Problem, source: &Emitter, frame: &[DVec3; 3], pixel: usize) -> Ray {
     let ([tangent, bitangent, normal], d) = (frame, problem.hemisphere.directions[pixel]);
     Ray::new(source.centre, tangent * d.x + bitangent * d.y + normal * d.z)
 }
@@ -185,7 +179,7 @@ fn copy_for_neighbours(
     frame: &[DVec3; 3],
     memory: &mut Memory,
 ) {
-    let Parcel { environment, source, .. } = parcel;
+    let Source { environment, emitter: source, .. } = parcel;
     let environment = &problem.environments[*environment as usize];
     let Bounds { min, max } = problem.space.grid.bounds(&environment.block);
     for side in Side::ALL.into_iter().filter(|&side| environment.has_neighbour(side)) {
@@ -213,7 +207,7 @@ fn copy_for_neighbours(
 }
 
 /// All patches, each with its form factor, which is cleared.
-fn update(patches: &mut [PatchRecord], source: &Source) {
+fn update(patches: &mut [PatchRecord], source: &Emitter) {
     for patch in patches {
         let form_factor = std::mem::take(&mut patch.form_factor);
         let arriving = source.power * patch.reflectance * form_factor;

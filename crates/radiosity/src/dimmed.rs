@@ -6,7 +6,7 @@ use crate::mask::Mask;
 use crate::media::{DepthBits, optical_depth};
 use crate::plain::{End, cast};
 use crate::ray::Ray;
-use crate::shot::{Outgoing, Shot, Source, count_passes};
+use crate::shot::{Emitter, Outgoing, Shot, count_passes};
 use crate::space::Space;
 use crate::work::{Operation, Work};
 
@@ -16,7 +16,7 @@ pub(crate) fn shoot_dimmed(
     space: &Space,
     environment: &LocalEnvironment,
     hemisphere: &Hemisphere,
-    source: &Source,
+    source: &Emitter,
     mask: &Mask,
 ) -> Shot {
     let [tangent, bitangent, normal] = hemisphere.frame(source.centre, source.normal);

@@ -74,7 +74,7 @@ pub use refinement::{Refinement, Wanted};
 pub use scene::{Face, Material, Plane, Polygon, Rgb, Scene};
 pub use scene_error::SceneError;
 pub use shoot::shoot;
-pub use shot::{Outgoing, Shot, Source};
+pub use shot::{Emitter, Outgoing, Shot};
 pub use solve::{solve, solve_watched};
 pub use space::Space;
 pub use tone::{Exposure, Tone};

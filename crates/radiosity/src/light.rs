@@ -2,7 +2,7 @@
 
 use crate::environment::LocalEnvironment;
 use crate::scene::Rgb;
-use crate::shot::{Shot, Source};
+use crate::shot::{Emitter, Shot};
 use crate::space::Space;
 
 /// Radiosity and unshot power of the patches of one environment, and where energy went.
@@ -46,7 +46,7 @@ impl Light {
         environment: &LocalEnvironment,
         number: u32,
         patch: u32,
-    ) -> Source {
+    ) -> Emitter {
         let source = self.source(space, environment, number, patch);
         self.unshot[patch as usize] = Rgb::ZERO;
         source
@@ -59,10 +59,10 @@ impl Light {
         environment: &LocalEnvironment,
         number: u32,
         patch: u32,
-    ) -> Source {
+    ) -> Emitter {
         let power = self.unshot[patch as usize];
         let geometry = environment.patches[patch as usize];
-        Source {
+        Emitter {
             environment: number,
             patch,
             polygon: geometry.polygon,
@@ -75,7 +75,7 @@ impl Light {
 
     /// Update the patches with what a shot brought them (§3.3: one iteration of a progressive
     /// radiosity algorithm). Returns the power that they reflect of it, W.
-    pub fn receive(&mut self, source: &Source, shot: &Shot) -> Rgb {
+    pub fn receive(&mut self, source: &Emitter, shot: &Shot) -> Rgb {
         let mut all_reflected = Rgb::ZERO;
         for &(patch, form_factor) in &shot.hits {
             let patch = patch as usize;

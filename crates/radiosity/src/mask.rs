@@ -1,6 +1,4 @@
-//! The visibility mask of §3.2, and what travels of one that is coarser than the hemisphere.
-
-use std::borrow::Cow;
+//! The visibility mask of §3.2.
 
 use crate::media::DepthBits;
 
@@ -11,8 +9,6 @@ use crate::media::DepthBits;
 pub struct Mask {
     words: Vec<u64>,
     pixels: u32,
-    /// Consecutive pixels that are alike: a bit each travels.
-    pixels_a_bit: u32,
     depths: Option<Box<Depths>>,
 }
 
@@ -59,7 +55,7 @@ impl Mask {
     }
 
     fn of(words: Vec<u64>, pixels: u32) -> Mask {
-        Mask { words, pixels, pixels_a_bit: 1, depths: None }
+        Mask { words, pixels, depths: None }
     }
 
     /// The same with an integer a pixel, for media; nothing has dimmed it so far.
@@ -105,73 +101,6 @@ impl Mask {
         }
         self.set(pixel);
         self.transmittance(pixel)
-    }
-
-    /// The mask with one bit for each `pixels_a_bit` consecutive pixels, which are neighbours on the
-    /// hemisphere: 1, 2, 4 and so on to 64.
-    ///
-    /// Choice C36: of pixels that disagree the majority decides, and if they are equally many they
-    /// count as true; where no bit would be true, the first of those with most true pixels is. So the
-    /// mask has about as many true pixels as before.
-    pub fn coarsened(&self, pixels_a_bit: u32) -> Mask {
-        if pixels_a_bit == 1 {
-            return self.clone();
-        }
-        let mut coarse = Mask { pixels_a_bit, ..Mask::none(self.pixels) };
-        let all = Mask::all(self.pixels);
-        let mut fullest = (0, 0, 0);
-        for (word, (&bits, &there)) in self.words.iter().zip(&all.words).enumerate() {
-            for group in groups(pixels_a_bit) {
-                let held = (bits & group).count_ones();
-                if held > 0 && 2 * held >= (there & group).count_ones() {
-                    coarse.words[word] |= there & group;
-                }
-                if held > fullest.0 {
-                    fullest = (held, word, there & group);
-                }
-            }
-        }
-        if let (true, (1.., word, group)) = (coarse.is_empty(), fullest) {
-            coarse.words[word] = group;
-        }
-        coarse
-    }
-
-    /// Pixels that share a bit of what travels.
-    pub fn pixels_a_bit(&self) -> u32 {
-        self.pixels_a_bit
-    }
-
-    /// What travels: a bit for each `pixels_a_bit` pixels, lowest first.
-    pub fn travelling(&self) -> Cow<'_, [u64]> {
-        if self.pixels_a_bit == 1 {
-            return Cow::Borrowed(&self.words);
-        }
-        let mut bits = Mask::none(self.pixels.div_ceil(self.pixels_a_bit));
-        for bit in 0..bits.pixels {
-            if self.get(bit * self.pixels_a_bit) {
-                bits.set(bit);
-            }
-        }
-        Cow::Owned(bits.words)
-    }
-
-    /// The mask of what has travelled; `None` as [`Mask::from_words`], or when so many pixels cannot
-    /// share a bit.
-    pub fn arrived(words: Vec<u64>, pixels: u32, pixels_a_bit: u32) -> Option<Mask> {
-        if pixels_a_bit == 1 {
-            return Mask::from_words(words, pixels);
-        }
-        if !(pixels_a_bit.is_power_of_two() && pixels_a_bit <= 64) {
-            return None;
-        }
-        let bits = Mask::from_words(words, pixels.div_ceil(pixels_a_bit))?;
-        let mut mask = Mask { pixels_a_bit, ..Mask::none(pixels) };
-        for bit in bits.ones() {
-            let first = bit * pixels_a_bit;
-            (first..pixels.min(first + pixels_a_bit)).for_each(|pixel| mask.set(pixel));
-        }
-        Some(mask)
     }
 
     /// The words, lowest pixel first.
@@ -236,12 +165,6 @@ impl Mask {
     }
 }
 
-/// The bits of a word in runs of `length`.
-fn groups(length: u32) -> impl Iterator<Item = u64> {
-    let run = u64::MAX >> (64 - length);
-    (0..64 / length).map(move |group| run << (group * length))
-}
-
 fn words_for(pixels: u32) -> usize {
     pixels.div_ceil(64) as usize
 }
@@ -284,26 +207,6 @@ mod tests {
             assert_eq!(merged, mask);
         }
         assert_eq!(Mask::from_steps(vec![256], DepthBits::Eight), None);
-    }
-
-    #[test]
-    fn a_coarse_mask_goes_by_majority_and_comes_back() {
-        let mut mask = Mask::none(70);
-        [0, 1, 2, 4, 8, 64, 65, 66, 69].into_iter().for_each(|i| mask.set(i));
-        let coarse = mask.coarsened(4);
-        // 64 to 67 and the two that are left at the end.
-        assert_eq!(coarse.ones().collect::<Vec<_>>(), [0, 1, 2, 3, 64, 65, 66, 67, 68, 69]);
-        for length in [1, 2, 4, 8, 16, 32, 64] {
-            let coarse = mask.coarsened(length);
-            let travelling = coarse.travelling().into_owned();
-            assert_eq!(travelling.len(), 70_usize.div_ceil(length as usize).div_ceil(64));
-            assert_eq!(Mask::arrived(travelling, 70, length), Some(coarse));
-        }
-        let mut one = Mask::none(70);
-        one.set(33);
-        assert_eq!(one.coarsened(8).ones().collect::<Vec<_>>(), (32..40).collect::<Vec<_>>());
-        assert!(Mask::none(70).coarsened(8).is_empty());
-        assert_eq!(Mask::arrived(vec![1], 70, 3), None);
     }
 
     #[test]

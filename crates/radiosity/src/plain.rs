@@ -7,7 +7,7 @@ use crate::grid::Side;
 use crate::hemisphere::Hemisphere;
 use crate::mask::Mask;
 use crate::ray::Ray;
-use crate::shot::{Shot, Source, Tally};
+use crate::shot::{Emitter, Shot, Tally};
 use crate::space::Space;
 use crate::work::{Operation, Work};
 
@@ -31,7 +31,7 @@ pub fn shoot_plainly(
     space: &Space,
     environment: &LocalEnvironment,
     hemisphere: &Hemisphere,
-    source: &Source,
+    source: &Emitter,
     mask: &Mask,
 ) -> Shot {
     let [tangent, bitangent, normal] = hemisphere.frame(source.centre, source.normal);

@@ -14,7 +14,7 @@ use crate::lattice::Lattice;
 use crate::mask::Mask;
 use crate::nearest::Nearest;
 use crate::plain::cast_pixel;
-use crate::shot::{Shot, Source, Tally};
+use crate::shot::{Emitter, Shot, Tally};
 use crate::space::Space;
 use crate::tree::Waiting;
 use crate::walk::Walk;
@@ -37,7 +37,7 @@ pub fn shoot(
     space: &Space,
     environment: &LocalEnvironment,
     hemisphere: &Hemisphere,
-    source: &Source,
+    source: &Emitter,
     mask: &Mask,
 ) -> Shot {
     if !space.scene.media.is_empty() {
@@ -53,7 +53,7 @@ fn shoot_on<S: Simd>(
     space: &Space,
     environment: &LocalEnvironment,
     hemisphere: &Hemisphere,
-    source: &Source,
+    source: &Emitter,
     mask: &Mask,
 ) -> Shot {
     let frame = hemisphere.frame(source.centre, source.normal);
@@ -180,7 +180,7 @@ mod tests {
             let hemisphere = Hemisphere::new(kind, 256, false).expect("a square");
             for (from, own) in environments.iter().enumerate() {
                 for (patch, &Patch { centre, polygon, .. }) in own.patches.iter().enumerate() {
-                    let source = Source {
+                    let source = Emitter {
                         environment: from as u32,
                         patch: patch as u32,
                         polygon,

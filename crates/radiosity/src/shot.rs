@@ -11,7 +11,7 @@ use crate::work::{Operation, Work};
 
 /// A patch that shoots, as every environment needs to know it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Source {
+pub struct Emitter {
     /// Environment of the patch.
     pub environment: u32,
     /// The patch in that environment.

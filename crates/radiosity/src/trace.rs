@@ -5,7 +5,7 @@ use crate::grid::Side;
 use crate::hemisphere::Hemisphere;
 use crate::mask::Mask;
 use crate::ray::Ray;
-use crate::shot::Source;
+use crate::shot::Emitter;
 use crate::space::Space;
 
 /// A record that the virtual processor reads or writes while it casts rays.
@@ -61,7 +61,7 @@ pub fn trace(
     space: &Space,
     environment: &LocalEnvironment,
     hemisphere: &Hemisphere,
-    source: &Source,
+    source: &Emitter,
     mask: &Mask,
     mut touch: impl FnMut(Record),
 ) {
@@ -91,7 +91,7 @@ fn trace_ray(
     space: &Space,
     environment: &LocalEnvironment,
     ray: &Ray,
-    (source, start): (&Source, [u32; 3]),
+    (source, start): (&Emitter, [u32; 3]),
     touch: &mut impl FnMut(Record),
 ) -> Option<Side> {
     let Space { grid, .. } = space;

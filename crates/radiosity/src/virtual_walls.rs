@@ -9,7 +9,7 @@ use crate::grid::Side;
 use crate::hemisphere::{Hemisphere, unlifted};
 use crate::mask::Mask;
 use crate::scene::Rgb;
-use crate::shot::Source;
+use crate::shot::Emitter;
 
 /// How all virtual walls are meshed, and the directions over a wall patch.
 ///
@@ -51,7 +51,7 @@ const MOST_RAYS: u32 = 1 << 24;
 /// The environment that a source on a virtual wall says it is of.
 const OF_A_WALL: u32 = u32::MAX;
 
-impl Source {
+impl Emitter {
     /// Whether it is a bin of a wall patch, not a patch.
     pub fn is_of_a_wall(&self) -> bool {
         self.environment == OF_A_WALL
@@ -98,7 +98,7 @@ impl VirtualWalls {
     }
 
     /// The rays of a bin of a wall patch, if the source is one.
-    pub fn rays_of(&self, source: &Source) -> Option<&Hemisphere> {
+    pub fn rays_of(&self, source: &Emitter) -> Option<&Hemisphere> {
         let bin = source.patch as usize % self.bins.len();
         source.is_of_a_wall().then(|| &self.bins[bin])
     }
@@ -111,7 +111,7 @@ impl VirtualWalls {
         side: Side,
         [patch, bin]: [u32; 2],
         power: Rgb,
-    ) -> Source {
+    ) -> Emitter {
         let [i, j] = [patch % self.patches[0], patch / self.patches[0]];
         let mut centre = if side.upper { around.max } else { around.min };
         for (axis, place, n) in [(u(side), i, self.patches[0]), (v(side), j, self.patches[1])] {
@@ -119,7 +119,7 @@ impl VirtualWalls {
             centre[axis] = around.min[axis] + around.size()[axis] * share;
         }
         let wall_patch = side.index() as u32 * self.patches() + patch;
-        Source {
+        Emitter {
             environment: OF_A_WALL,
             patch: wall_patch * self.bins() + bin,
             polygon: u32::MAX,
@@ -136,7 +136,7 @@ impl VirtualWalls {
         &self,
         around: &Bounds,
         side: Side,
-        source: &Source,
+        source: &Emitter,
         hemisphere: &Hemisphere,
         mask: &Mask,
         mut told: impl FnMut([u32; 2], f64),
@@ -243,7 +243,7 @@ mod tests {
         let walls = VirtualWalls::new([1, 1], 4, 16).unwrap();
         let hemisphere = Hemisphere::new(Fibonacci, 30_976, true).unwrap();
         let side = Side { axis: 1, upper: true };
-        let source = Source {
+        let source = Emitter {
             environment: 0,
             patch: 0,
             polygon: 0,

@@ -4,8 +4,8 @@
 
 use radiosity::glam::DVec3;
 use radiosity::{
-    Face, Hemisphere, HemisphereKind, LocalEnvironment, Mask, Material, PatchSize, Rgb, Scene,
-    Source, Space, shoot, solve,
+    Emitter, Face, Hemisphere, HemisphereKind, LocalEnvironment, Mask, Material, PatchSize, Rgb,
+    Scene, Space, shoot, solve,
 };
 
 fn grey(reflectance: f64, emission: f64) -> Material {
@@ -57,7 +57,7 @@ fn form_factor(space: &Space, from: u32, to: u32, size: f64, pixels: u32) -> f64
         if object(patch.polygon) != from {
             continue;
         }
-        let source = Source {
+        let source = Emitter {
             environment: 0,
             patch: number,
             polygon: patch.polygon,

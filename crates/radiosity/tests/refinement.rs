@@ -4,8 +4,8 @@
 
 use radiosity::glam::DVec3;
 use radiosity::{
-    Face, Hemisphere, HemisphereKind, LocalEnvironment, Mask, Material, PatchSize, Refinement, Rgb,
-    Scene, Source, Space, Wanted, shoot, shoot_plainly,
+    Emitter, Face, Hemisphere, HemisphereKind, LocalEnvironment, Mask, Material, PatchSize,
+    Refinement, Rgb, Scene, Space, Wanted, shoot, shoot_plainly,
 };
 
 const SIZE: PatchSize = PatchSize { reflector: 1.0, emitter: 1.0 };
@@ -104,7 +104,7 @@ fn bundles_shoot_as_single_rays_do() {
     let [_, low, high] = meshes(&space, &refinement(&space, 0.05));
     let hemisphere = Hemisphere::new(HemisphereKind::Fibonacci, 512, true).unwrap();
     for (patch, of) in (0..).zip(&low.patches).step_by(5) {
-        let source = Source {
+        let source = Emitter {
             environment: 0,
             patch,
             polygon: of.polygon,

@@ -2,7 +2,7 @@
 
 use radiosity::glam::DVec3;
 use radiosity::{
-    Hemisphere, HemisphereError, HemisphereKind, LocalEnvironment, Mask, PatchSize, Rgb, Source,
+    Emitter, Hemisphere, HemisphereError, HemisphereKind, LocalEnvironment, Mask, PatchSize, Rgb,
     Space, shoot,
 };
 use rand::{RngExt, SeedableRng};
@@ -96,10 +96,10 @@ impl<'a> ObjectRays<'a> {
         means
     }
 
-    fn source(&self, polygon: u32, u: f64, v: f64) -> Source {
+    fn source(&self, polygon: u32, u: f64, v: f64) -> Emitter {
         let face = &self.space.scene.polygons[polygon as usize];
         let corners: Vec<DVec3> = self.space.scene.corners(face).collect();
-        Source {
+        Emitter {
             environment: 0,
             patch: 0,
             polygon,

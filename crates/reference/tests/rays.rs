@@ -6,7 +6,7 @@ mod common;
 
 use common::{closed_forms, quad, room, scene, whole};
 use radiosity::glam::DVec3;
-use radiosity::{Hemisphere, HemisphereKind, LocalEnvironment, Mask, Rgb, Source, Space, shoot};
+use radiosity::{Emitter, Hemisphere, HemisphereKind, LocalEnvironment, Mask, Rgb, Space, shoot};
 use reference::{ObjectRays, Objects, Pair, Surface, closed_form, element_to_polygon};
 
 /// Sizes of the hemisphere; the default is 176².
@@ -33,7 +33,7 @@ fn by_rays(
 ) -> Vec<f64> {
     let normal = space.scene.polygons[polygon as usize].plane.normal;
     let (power, radiosity) = (Rgb::ONE, Rgb::ONE);
-    let source = Source { environment: 0, patch: 0, polygon, centre, normal, power, radiosity };
+    let source = Emitter { environment: 0, patch: 0, polygon, centre, normal, power, radiosity };
     let mask = Mask::all(hemisphere.pixels());
     let mut found = vec![0.0; environment.patches.len()];
     for (patch, form_factor) in shoot(space, environment, hemisphere, &source, &mask).hits {

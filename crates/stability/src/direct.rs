@@ -1,6 +1,6 @@
 //! Light straight from the lamps: who gets it, and how much.
 
-use radiosity::{End, Ray, Source};
+use radiosity::{Emitter, End, Ray};
 use virtwall::Problem;
 
 use crate::bench::{Bench, Trial};
@@ -8,13 +8,13 @@ use crate::finding::Count;
 use crate::rays::{emits, follow, shoot_through, sources};
 
 /// Patches that emit, as sources, and those that do not.
-pub fn lamps_and_others(bench: &Bench, trial: &Trial) -> (Vec<Source>, Vec<Source>) {
-    let emits = |source: &Source| emits(&trial.problem, (source.environment, source.patch));
+pub fn lamps_and_others(bench: &Bench, trial: &Trial) -> (Vec<Emitter>, Vec<Emitter>) {
+    let emits = |source: &Emitter| emits(&trial.problem, (source.environment, source.patch));
     sources(bench, trial, u64::MAX).into_iter().partition(emits)
 }
 
 /// Whether a patch and a lamp see each other's centres.
-pub fn sees(problem: &Problem, patch: &Source, lamp: &Source) -> bool {
+pub fn sees(problem: &Problem, patch: &Emitter, lamp: &Emitter) -> bool {
     let away = lamp.centre - patch.centre;
     let Some(direction) = away.try_normalize() else { return false };
     if direction.dot(patch.normal) <= 1e-6 || direction.dot(lamp.normal) >= -1e-6 {
@@ -41,7 +41,7 @@ pub fn dark(bench: &Bench) -> Count {
 }
 
 /// Form factors by rays from a source to all patches, by environment.
-pub fn form_factors(problem: &Problem, source: &Source) -> Vec<Vec<f64>> {
+pub fn form_factors(problem: &Problem, source: &Emitter) -> Vec<Vec<f64>> {
     let empty = |environment: &radiosity::LocalEnvironment| vec![0.0; environment.patches.len()];
     let mut found: Vec<Vec<f64>> = problem.environments.iter().map(empty).collect();
     shoot_through(problem, source, |number, shot, _| {

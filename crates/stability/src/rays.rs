@@ -3,14 +3,14 @@
 use std::collections::BTreeMap;
 
 use radiosity::glam::DVec3;
-use radiosity::{End, Mask, Ray, Rgb, Shot, Side, Source, Work, cast, shoot};
+use radiosity::{Emitter, End, Mask, Ray, Rgb, Shot, Side, Work, cast, shoot};
 use virtwall::Problem;
 
 use crate::bench::{Bench, Trial};
 use crate::finding::Count;
 
 /// Patches of a trial that make about so many rays together, evenly chosen from all.
-pub fn sources(bench: &Bench, trial: &Trial, most: u64) -> Vec<Source> {
+pub fn sources(bench: &Bench, trial: &Trial, most: u64) -> Vec<Emitter> {
     let problem = &*trial.problem;
     let rays = bench.case.rays.unwrap_or(u64::MAX).min(most);
     let all: Vec<(u32, u32)> = (0..)
@@ -31,9 +31,9 @@ pub fn emits(problem: &Problem, (environment, patch): (u32, u32)) -> bool {
 }
 
 /// A patch as a source of one watt.
-fn source(problem: &Problem, environment: u32, patch: u32) -> Source {
+fn source(problem: &Problem, environment: u32, patch: u32) -> Emitter {
     let geometry = problem.environments[environment as usize].patches[patch as usize];
-    Source {
+    Emitter {
         environment,
         patch,
         polygon: geometry.polygon,
@@ -45,7 +45,7 @@ fn source(problem: &Problem, environment: u32, patch: u32) -> Source {
 }
 
 /// The rays of a source: its hemisphere's, or those aimed at all that is narrow.
-pub fn rays(bench: &Bench, problem: &Problem, source: &Source) -> Vec<Ray> {
+pub fn rays(bench: &Bench, problem: &Problem, source: &Emitter) -> Vec<Ray> {
     if bench.case.aimed {
         return aimed(problem, source);
     }
@@ -55,7 +55,7 @@ pub fn rays(bench: &Bench, problem: &Problem, source: &Source) -> Vec<Ray> {
 }
 
 /// Rays to corners of cells and to the corners and the middles of the edges of polygons.
-fn aimed(problem: &Problem, source: &Source) -> Vec<Ray> {
+fn aimed(problem: &Problem, source: &Emitter) -> Vec<Ray> {
     let (grid, scene) = (&problem.space.grid, &problem.space.scene);
     let mut targets: Vec<DVec3> = Vec::new();
     for cell in grid.whole().cells() {
@@ -90,7 +90,7 @@ pub fn leaks(bench: &Bench) -> Count {
 }
 
 /// The same of one source's hemisphere, whose pixels are all worth the same.
-fn shot_leaks(problem: &Problem, source: &Source) -> Count {
+fn shot_leaks(problem: &Problem, source: &Emitter) -> Count {
     let (mut lost, pixels) = (0.0, problem.hemisphere.pixels());
     shoot_through(problem, source, |_, shot, _| lost += shot.escaped);
     Count { wrong: (lost * f64::from(pixels)).round() as u64, of: u64::from(pixels) }
@@ -98,7 +98,7 @@ fn shot_leaks(problem: &Problem, source: &Source) -> Count {
 
 /// Shoots a source through all environments that its mask comes to; `seen` is told each environment,
 /// its shot and the mask.
-pub fn shoot_through(problem: &Problem, source: &Source, mut seen: impl FnMut(u32, &Shot, &Mask)) {
+pub fn shoot_through(problem: &Problem, source: &Emitter, mut seen: impl FnMut(u32, &Shot, &Mask)) {
     let mut waiting = vec![(source.environment, Mask::all(problem.hemisphere.pixels()))];
     while let Some((number, mask)) = waiting.pop() {
         let environment = &problem.environments[number as usize];
@@ -131,7 +131,7 @@ pub fn owners(bench: &Bench) -> Count {
 }
 
 /// Where a ray ends when it is handed from environment to environment.
-pub fn follow(problem: &Problem, source: &Source, ray: &Ray) -> End {
+pub fn follow(problem: &Problem, source: &Emitter, ray: &Ray) -> End {
     let mut environment = source.environment;
     loop {
         let here = &problem.environments[environment as usize];
@@ -145,7 +145,7 @@ pub fn follow(problem: &Problem, source: &Source, ray: &Ray) -> End {
 }
 
 /// The nearest of all polygons, each tested: what a ray must end on.
-pub fn nearest(problem: &Problem, source: &Source, ray: &Ray) -> Option<f64> {
+pub fn nearest(problem: &Problem, source: &Emitter, ray: &Ray) -> Option<f64> {
     let polygons = 0..problem.space.scene.polygons.len() as u32;
     let hit = |polygon| problem.space.facets.hit(polygon, ray, f64::INFINITY);
     polygons.filter(|&polygon| polygon != source.polygon).filter_map(hit).min_by(f64::total_cmp)
@@ -155,7 +155,7 @@ pub fn nearest(problem: &Problem, source: &Source, ray: &Ray) -> Option<f64> {
 pub fn astray(
     bench: &Bench,
     most: u64,
-    ends: impl Fn(&Problem, &Source, &Ray) -> Option<f64>,
+    ends: impl Fn(&Problem, &Emitter, &Ray) -> Option<f64>,
 ) -> Count {
     let mut count = Count::default();
     for trial in &bench.trials {
@@ -174,7 +174,7 @@ pub fn astray(
 }
 
 /// The distance at which our ray ends.
-pub fn ours(problem: &Problem, source: &Source, ray: &Ray) -> Option<f64> {
+pub fn ours(problem: &Problem, source: &Emitter, ray: &Ray) -> Option<f64> {
     match follow(problem, source, ray) {
         End::Hit { distance, .. } => Some(distance),
         End::Leaves(_) => None,
@@ -186,7 +186,7 @@ pub fn ours(problem: &Problem, source: &Source, ray: &Ray) -> Option<f64> {
 pub fn torn(
     bench: &Bench,
     most: u64,
-    end: impl Fn(&Problem, &Source, &Ray) -> Option<u32>,
+    end: impl Fn(&Problem, &Emitter, &Ray) -> Option<u32>,
 ) -> Count {
     let mut count = Count::default();
     for trial in &bench.trials {
@@ -210,7 +210,7 @@ pub fn torn(
 }
 
 /// The polygons whose fronts a ray meets first, all within the tolerance.
-fn met_at_once(problem: &Problem, source: &Source, ray: &Ray) -> Vec<u32> {
+fn met_at_once(problem: &Problem, source: &Emitter, ray: &Ray) -> Vec<u32> {
     let facets = &problem.space.facets;
     let Some(first) = nearest(problem, source, ray) else { return Vec::new() };
     let reach = first + problem.space.scene.tolerance();
@@ -220,7 +220,7 @@ fn met_at_once(problem: &Problem, source: &Source, ray: &Ray) -> Vec<u32> {
 }
 
 /// The polygon on which our ray ends.
-pub fn our_polygon(problem: &Problem, source: &Source, ray: &Ray) -> Option<u32> {
+pub fn our_polygon(problem: &Problem, source: &Emitter, ray: &Ray) -> Option<u32> {
     match follow(problem, source, ray) {
         End::Hit { polygon, .. } => Some(polygon),
         End::Leaves(_) => None,

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use desim::Time;
 use multicomputer::{Rank, Stall};
 use radiosity::{Rgb, Shot};
-use virtwall::{Activity, Observer, Parcel, Problem, SentMessage, ShotKey, Span};
+use virtwall::{Activity, Observer, Problem, SentMessage, ShotKey, Source, Span};
 
 use crate::columns::Columns;
 use crate::film::{Beam, Doing};
@@ -172,13 +172,13 @@ impl Observer for Broadcast {
         self.news.messages.extend(message.map(|(sent, message)| (sent, now, message)));
     }
 
-    fn selected(&mut self, now: Time, rank: Rank, source: &Parcel) {
+    fn selected(&mut self, now: Time, rank: Rank, source: &Source) {
         let lane = &mut self.lanes[rank];
         lane.chosen = Some((Doing::of(activity_of(source)), now));
         lane.queue_left = lane.queue;
     }
 
-    fn shot(&mut self, now: Time, rank: Rank, source: &Parcel, shot: &Shot, _: Rgb) {
+    fn shot(&mut self, now: Time, rank: Rank, source: &Source, shot: &Shot, _: Rgb) {
         self.now = self.now.max(now);
         let lane = &mut self.lanes[rank];
         // Kernels that take no time leave no span.
@@ -213,6 +213,6 @@ impl Observer for Broadcast {
     }
 }
 
-fn activity_of(source: &Parcel) -> Activity {
+fn activity_of(source: &Source) -> Activity {
     if source.is_local() { Activity::LocalShot } else { Activity::ReceivedShot }
 }

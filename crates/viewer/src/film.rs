@@ -3,7 +3,7 @@
 use desim::Time;
 use multicomputer::{Rank, Stall};
 use radiosity::{Rgb, Shot};
-use virtwall::{Activity, MessageKind, Observer, Parcel, Problem, Recording, SentMessage, ShotKey};
+use virtwall::{Activity, MessageKind, Observer, Problem, Recording, SentMessage, ShotKey, Source};
 
 /// An observer that remembers a run.
 pub struct Film {
@@ -34,13 +34,13 @@ pub(crate) struct Beam {
 }
 
 impl Beam {
-    pub fn of(source: &Parcel, shot: &Shot) -> Beam {
+    pub fn of(source: &Source, shot: &Shot) -> Beam {
         let hits = shot.hits.iter();
         Beam {
             key: ShotKey::of(source),
             environment: source.environment,
-            source: (source.source.environment, source.source.patch),
-            power: source.source.power,
+            source: (source.emitter.environment, source.emitter.patch),
+            power: source.emitter.power,
             hits: hits.map(|&(patch, form_factor)| (patch, form_factor as f32)).collect(),
             backs: shot.backs,
             escaped: shot.escaped,
@@ -86,11 +86,11 @@ impl Observer for Film {
         self.recording.read(now, rank, number);
     }
 
-    fn selected(&mut self, now: Time, rank: Rank, source: &Parcel) {
+    fn selected(&mut self, now: Time, rank: Rank, source: &Source) {
         self.recording.selected(now, rank, source);
     }
 
-    fn shot(&mut self, now: Time, rank: Rank, source: &Parcel, shot: &Shot, reflected: Rgb) {
+    fn shot(&mut self, now: Time, rank: Rank, source: &Source, shot: &Shot, reflected: Rgb) {
         self.recording.shot(now, rank, source, shot, reflected);
         self.beams[rank].push(Beam::of(source, shot));
     }

@@ -8,7 +8,7 @@ use radiosity::{Operation, Shot, Work};
 
 use crate::counts::Counts;
 use crate::footprint::{self, Footprint};
-use crate::message::{Message, Parcel, Sums};
+use crate::message::{Message, Source, Sums};
 use crate::process::Process;
 use crate::queue::Queue;
 use crate::region::Region;
@@ -22,7 +22,7 @@ pub struct ComputeNode {
     pub(crate) region: Region,
     queue: Queue,
     /// What is still to be shot of the patch that was selected last, the last part first.
-    parts: Vec<Parcel>,
+    parts: Vec<Source>,
     /// The environment that it is at, where they are taken in turn.
     turn: u32,
     ring: Ring,
@@ -92,7 +92,7 @@ impl ComputeNode {
 
     /// §4.2.2: the greatest source, from the region or from the queue; a patch that is cut into several
     /// sources shoots them one after the other, a wall patch all that it is at once.
-    async fn choose_best_source(&mut self, process: &impl Process) -> Option<Vec<Parcel>> {
+    async fn choose_best_source(&mut self, process: &impl Process) -> Option<Vec<Source>> {
         if let Some(part) = self.parts.pop() {
             self.tally.counts.local_shots += 1;
             return Some(vec![part]);
@@ -154,7 +154,7 @@ impl ComputeNode {
         }
     }
 
-    fn take_received(&mut self, process: &impl Process, place: usize) -> Vec<Parcel> {
+    fn take_received(&mut self, process: &impl Process, place: usize) -> Vec<Source> {
         let (turn, source) = self.queue.take(place);
         process.release(footprint::queued(turn));
         self.tell_queue(process);
@@ -168,7 +168,7 @@ impl ComputeNode {
     async fn compute_illumination(
         &mut self,
         process: &impl Process,
-        source: &[Parcel],
+        source: &[Source],
     ) -> Vec<Shot> {
         for part in source {
             process.observe(|to| to.selected(process.now(), process.rank(), part));
@@ -197,13 +197,12 @@ impl ComputeNode {
     async fn send_source_neighbours(
         &mut self,
         process: &impl Process,
-        source: &[Parcel],
+        source: &[Source],
         shots: &[Shot],
     ) {
         let shared = Arc::clone(&self.shared);
-        let pixels_a_bit = shared.rules.shooting.pixels_a_bit;
         for (part, shot) in source.iter().zip(shots) {
-            for onward in shared.problem.onward(part, shot, pixels_a_bit) {
+            for onward in shared.problem.onward(part, shot) {
                 self.hand_on(process, vec![onward], |mut source| {
                     source.pop().map(|onward| Message::Source(Box::new(onward)))
                 })
@@ -220,7 +219,7 @@ impl ComputeNode {
     async fn send_wall_patches(
         &mut self,
         process: &impl Process,
-        source: &[Parcel],
+        source: &[Source],
         shots: &[Shot],
     ) {
         let shared = Arc::clone(&self.shared);
@@ -247,8 +246,8 @@ impl ComputeNode {
     async fn hand_on(
         &mut self,
         process: &impl Process,
-        source: Vec<Parcel>,
-        message: impl FnOnce(Vec<Parcel>) -> Option<Message>,
+        source: Vec<Source>,
+        message: impl FnOnce(Vec<Source>) -> Option<Message>,
     ) {
         let Some(first) = source.first() else { return };
         let owner = self.shared.owners[first.environment as usize];
@@ -267,7 +266,7 @@ impl ComputeNode {
     }
 
     /// Figure 6: tell the service node which radiosities changed, for the display.
-    async fn send_to_host(&mut self, process: &impl Process, source: &[Parcel], shots: &[Shot]) {
+    async fn send_to_host(&mut self, process: &impl Process, source: &[Source], shots: &[Shot]) {
         if !self.shared.rules.radiosity_updates || shots.iter().all(|shot| shot.hits.is_empty()) {
             return;
         }
@@ -300,10 +299,8 @@ impl ComputeNode {
         }
     }
 
-    fn enqueue(&mut self, process: &impl Process, source: Vec<Parcel>) {
+    fn enqueue(&mut self, process: &impl Process, source: Vec<Source>) {
         let footprint = Footprint::of_source(&source);
-        let problem = &self.shared.problem;
-        let source = source.into_iter().map(|part| problem.arriving(part)).collect();
         match self.queue.push(source, self.shared.rules.merge_masks) {
             Some(turn) => process.keep(footprint::queued(turn), || footprint),
             // Taken up by another parcel, and with it when that is shot.
@@ -340,7 +337,7 @@ impl ComputeNode {
     }
 
     fn sums(&mut self, rank: Rank) -> Sums {
-        let in_parts: radiosity::Rgb = self.parts.iter().map(|part| part.source.power).sum();
+        let in_parts: radiosity::Rgb = self.parts.iter().map(|part| part.emitter.power).sum();
         Sums {
             rank: rank as u32,
             unshot: (self.region.unshot_power() + in_parts).element_sum(),
@@ -351,6 +348,6 @@ impl ComputeNode {
 }
 
 /// The power that a source carries into an environment, W.
-fn power_of(source: &[Parcel]) -> radiosity::Rgb {
-    source.iter().map(|part| part.source.power * part.form_factor).sum()
+fn power_of(source: &[Source]) -> radiosity::Rgb {
+    source.iter().map(|part| part.emitter.power * part.form_factor).sum()
 }

@@ -2,7 +2,7 @@
 
 use radiosity::{Rgb, Shot};
 
-use crate::message::Parcel;
+use crate::message::Source;
 use crate::outcome::EnergyLedger;
 
 /// A source that has been selected and not been shot yet is in transit, too, and so is what virtual walls
@@ -14,16 +14,16 @@ impl EnergyLedger {
     }
 
     /// A source was selected: what a patch has not shot yet it gives away.
-    pub fn selected(&mut self, source: &Parcel) {
+    pub fn selected(&mut self, source: &Source) {
         if source.is_local() {
-            self.unshot -= source.source.power;
-            self.in_transit += source.source.power;
+            self.unshot -= source.emitter.power;
+            self.in_transit += source.emitter.power;
         }
     }
 
     /// A source was shot, and patches reflect so much of it, W.
-    pub fn shot(&mut self, source: &Parcel, shot: &Shot, reflected: Rgb) {
-        let power = source.source.power;
+    pub fn shot(&mut self, source: &Source, shot: &Shot, reflected: Rgb) {
+        let power = source.emitter.power;
         let fallen: f64 = shot.hits.iter().map(|(_, form_factor)| form_factor).sum();
         let onward: f64 = shot.outgoing.iter().flatten().map(|out| out.form_factor).sum();
         self.absorbed += power * (fallen + shot.backs) - reflected;

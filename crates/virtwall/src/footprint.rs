@@ -2,7 +2,7 @@
 
 use multicomputer::{NodeMemory, Segment};
 
-use crate::message::Parcel;
+use crate::message::Source;
 use crate::problem::Problem;
 
 /// A thing that compute nodes keep. A machine with memory gives each a size.
@@ -90,14 +90,11 @@ impl Footprint {
     }
 
     /// A source that waits in a queue.
-    pub(crate) fn of_source(sources: &[Parcel]) -> Footprint {
-        let words = |Parcel { source, mask, .. }: &Parcel| match source.is_of_a_wall() {
+    pub(crate) fn of_source(sources: &[Source]) -> Footprint {
+        let words = |Source { emitter: source, mask, .. }: &Source| match source.is_of_a_wall() {
             // Three colours a bin, in single precision.
             true => 3,
-            false => {
-                let bits = mask.pixels().div_ceil(mask.pixels_a_bit());
-                (bits.div_ceil(32) * mask.bits_a_pixel()) as usize
-            }
+            false => (mask.pixels().div_ceil(32) * mask.bits_a_pixel()) as usize,
         };
         let words = sources.iter().map(words).sum();
         Footprint::default().with(Thing::Source, 1).with(Thing::MaskWord, words)

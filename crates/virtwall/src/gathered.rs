@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use radiosity::{Rgb, Shot, Side};
 
-use crate::message::Parcel;
+use crate::message::Source;
 use crate::problem::Problem;
 use crate::wall_patch::WallPatch;
 
@@ -24,9 +24,9 @@ struct Held {
 
 impl Gathered {
     /// Gather what of a source leaves an environment; returns how many pixels that was.
-    pub(crate) fn gather(&mut self, problem: &Problem, parcel: &Parcel, shot: &Shot) -> u64 {
+    pub(crate) fn gather(&mut self, problem: &Problem, parcel: &Source, shot: &Shot) -> u64 {
         let Some(walls) = &problem.walls else { return 0 };
-        let source = &parcel.source;
+        let source = &parcel.emitter;
         let around = problem.bounds(parcel.environment);
         let mut pixels = 0;
         for (side, outgoing) in Side::ALL.into_iter().zip(&shot.outgoing) {

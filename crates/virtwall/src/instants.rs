@@ -12,7 +12,7 @@ use multicomputer::{Machine, Network, Rank};
 use radiosity::{Light, Rgb, Shot};
 
 use crate::ambient;
-use crate::message::Parcel;
+use crate::message::Source;
 use crate::observer::{Observer, SharedObserver};
 use crate::outcome::{EnergyLedger, Outcome};
 use crate::problem::Problem;
@@ -71,13 +71,13 @@ impl Follower {
         Follower { problem, light, energy, ambient: run.rules.shooting.ambient }
     }
 
-    pub fn selected(&mut self, source: &Parcel) {
+    pub fn selected(&mut self, source: &Source) {
         self.energy.selected(source);
     }
 
-    pub fn shot(&mut self, source: &Parcel, shot: &Shot, reflected: Rgb) {
+    pub fn shot(&mut self, source: &Source, shot: &Shot, reflected: Rgb) {
         self.energy.shot(source, shot, reflected);
-        self.light[source.environment as usize].receive(&source.source, shot);
+        self.light[source.environment as usize].receive(&source.emitter, shot);
     }
 
     pub fn instant(&self, time: Time) -> Instant<'_> {
@@ -115,12 +115,12 @@ impl<V: FnMut(Instant<'_>)> Visitor<V> {
 }
 
 impl<V: FnMut(Instant<'_>)> Observer for Visitor<V> {
-    fn selected(&mut self, now: Time, _: Rank, source: &Parcel) {
+    fn selected(&mut self, now: Time, _: Rank, source: &Source) {
         self.pass(now);
         self.follower.selected(source);
     }
 
-    fn shot(&mut self, now: Time, _: Rank, source: &Parcel, shot: &Shot, reflected: Rgb) {
+    fn shot(&mut self, now: Time, _: Rank, source: &Source, shot: &Shot, reflected: Rgb) {
         self.pass(now);
         self.follower.shot(source, shot, reflected);
     }

@@ -6,7 +6,7 @@ use desim::Time;
 use multicomputer::{self as machine, MachineObserver, Rank, Sent, Stall};
 use radiosity::{Rgb, Shot};
 
-use crate::message::Parcel;
+use crate::message::Source;
 use crate::message_kind::MessageKind;
 use crate::observer::{Activity, Observer, SentMessage, SharedObserver};
 
@@ -84,13 +84,13 @@ impl MachineObserver<Vec<u8>> for Interpreter {
 
 /// What the program tells goes on to the observer.
 impl Observer for Interpreter {
-    fn selected(&mut self, now: Time, rank: Rank, source: &Parcel) {
+    fn selected(&mut self, now: Time, rank: Rank, source: &Source) {
         let local = source.is_local();
         self.nodes[rank].kernel = if local { Activity::LocalShot } else { Activity::ReceivedShot };
         self.observer.borrow_mut().selected(now, rank, source);
     }
 
-    fn shot(&mut self, now: Time, rank: Rank, source: &Parcel, shot: &Shot, reflected: Rgb) {
+    fn shot(&mut self, now: Time, rank: Rank, source: &Source, shot: &Shot, reflected: Rgb) {
         self.nodes[rank].kernel = Activity::Selection;
         self.observer.borrow_mut().shot(now, rank, source, shot, reflected);
     }

@@ -10,7 +10,7 @@ use radiosity::{Shot, shoot};
 use crate::bell::Bell;
 use crate::helpers::Helpers;
 use crate::memory::Memory;
-use crate::message::Parcel;
+use crate::message::Source;
 use crate::problem::Problem;
 use crate::shot_code::{decode, encode};
 use crate::shot_key::ShotKey;
@@ -121,7 +121,7 @@ impl KeptShots {
     }
 
     /// The shot of a parcel: a kept one, or cast now; and whether it had been asked for before.
-    pub(crate) fn shot(&self, problem: &Problem, parcel: &Parcel) -> (Shot, bool) {
+    pub(crate) fn shot(&self, problem: &Problem, parcel: &Source) -> (Shot, bool) {
         match self.claim(ShotKey::of(parcel)) {
             Err(casting) => (self.obtain(problem, parcel, casting, |_| ()), false),
             Ok((code, found)) => {
@@ -134,7 +134,7 @@ impl KeptShots {
     }
 
     /// Take note that a shot will be asked for; whether casting it ahead makes sense.
-    pub(crate) fn foresee(&self, parcel: &Parcel) -> bool {
+    pub(crate) fn foresee(&self, parcel: &Source) -> bool {
         let key = ShotKey::of(parcel);
         let mut table = self.table();
         let new = !table.entries.contains_key(&key);
@@ -146,7 +146,7 @@ impl KeptShots {
 
     /// Cast a shot that was foreseen, unless it has been asked for meanwhile, or there is no room; `tell`
     /// of it before anybody else gets it.
-    pub(crate) fn cast_ahead(&self, problem: &Problem, parcel: &Parcel, tell: impl FnOnce(&Shot)) {
+    pub(crate) fn cast_ahead(&self, problem: &Problem, parcel: &Source, tell: impl FnOnce(&Shot)) {
         let key = ShotKey::of(parcel);
         {
             let mut table = self.table();
@@ -196,7 +196,7 @@ impl KeptShots {
     fn obtain(
         &self,
         problem: &Problem,
-        parcel: &Parcel,
+        parcel: &Source,
         mut casting: Casting,
         tell: impl FnOnce(&Shot),
     ) -> Shot {
@@ -269,7 +269,7 @@ impl Drop for Casting<'_> {
     }
 }
 
-fn cast(problem: &Problem, Parcel { environment, source, mask, .. }: &Parcel) -> Shot {
+fn cast(problem: &Problem, Source { environment, emitter: source, mask, .. }: &Source) -> Shot {
     let environment = &problem.environments[*environment as usize];
     shoot(&problem.space, environment, problem.rays_of(source, mask), source, mask)
 }

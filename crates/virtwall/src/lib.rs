@@ -5,7 +5,6 @@
 
 mod ambient;
 mod bell;
-mod coarse;
 mod compute_node;
 mod counts;
 mod decomposition;
@@ -55,7 +54,7 @@ pub use helpers::Helpers;
 pub use instants::{Instant, radiosity_at, visit_instants};
 pub use kept_shots::{Archive, KeptShots, ShotCounts};
 pub use memory::Memory;
-pub use message::{Message, Parcel, PatchUpdate, Sums};
+pub use message::{Message, PatchUpdate, Source, Sums};
 pub use message_kind::MessageKind;
 pub use observer::{Activity, Observer, SentMessage, SharedObserver};
 pub use observers::Observers;

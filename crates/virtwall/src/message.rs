@@ -1,6 +1,6 @@
 //! The wire format of everything that processes send.
 
-use radiosity::{DepthBits, Mask, Side, Source};
+use radiosity::{DepthBits, Emitter, Mask};
 
 use crate::reader::{DecodeError, Reader};
 use crate::wall_patch::WallPatch;
@@ -9,7 +9,7 @@ use crate::wall_patch::WallPatch;
 #[derive(Clone, Debug, PartialEq)]
 pub enum Message {
     /// A source and its mask for one environment of the receiver (§4.2.3).
-    Source(Box<Parcel>),
+    Source(Box<Source>),
     /// What a wall patch has gathered, where virtual walls stand in place of masks.
     WallPatch(Box<WallPatch>),
     /// Radiosities of patches that a shot changed, for the display (Figure 6, `send_to_host`).
@@ -28,24 +28,22 @@ pub enum Message {
 
 /// A source on its way to an environment.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Parcel {
+pub struct Source {
     /// Where it goes.
     pub environment: u32,
     /// Geometry and photometry of the emitter.
-    pub source: Source,
+    pub emitter: Emitter,
     /// The pixels that arrive.
     pub mask: Mask,
-    /// The form factor together of those that left for it, which are they unless the mask is coarse.
+    /// The sum of their form factors.
     pub form_factor: f64,
-    /// If the mask is coarser than the hemisphere: the side by which the source comes in.
-    pub through: Option<Side>,
 }
 
-impl Parcel {
+impl Source {
     /// Whether the emitter lies in the environment that the source is shot in. What has left an
     /// environment never comes back: it is a box, and rays are straight.
     pub fn is_local(&self) -> bool {
-        self.environment == self.source.environment
+        self.environment == self.emitter.environment
     }
 }
 
@@ -79,10 +77,8 @@ impl Message {
         let mut to = Vec::new();
         match self {
             Message::Source(parcel) => {
-                let Parcel { mask, .. } = &**parcel;
-                to.reserve(
-                    160 + (mask.pixels() / mask.pixels_a_bit() * mask.bits_a_pixel() / 8) as usize,
-                );
+                let Source { mask, .. } = &**parcel;
+                to.reserve(160 + (mask.pixels() * mask.bits_a_pixel() / 8) as usize);
                 to.push(0);
                 encode_parcel(parcel, &mut to);
             }
@@ -150,27 +146,21 @@ impl Message {
 /// Bits of a message that hold the number of pixels; [`radiosity::MOST_PIXELS`] fits them.
 const PIXEL_BITS: u32 = 25;
 
-/// 1, 2, 4 and so on to 64 pixels may share a bit.
-const COARSENESSES: u32 = 7;
 /// Sizes of the integers that travel where there are media.
 const DEPTHS: [DepthBits; 2] = [DepthBits::Eight, DepthBits::Sixteen];
-/// How many ways there are to send a mask.
-const LAYOUTS: u32 = COARSENESSES + DEPTHS.len() as u32;
 
-/// How a mask travels: a bit for so many pixels, or an integer each.
+/// How a mask is sent: a bit a pixel, or an integer of 8 or 16 bits a pixel.
 fn layout(mask: &Mask) -> u32 {
     match mask.depth_bits() {
-        None => mask.pixels_a_bit().trailing_zeros(),
-        Some(DepthBits::Eight) => COARSENESSES,
-        Some(DepthBits::Sixteen) => COARSENESSES + 1,
+        None => 0,
+        Some(DepthBits::Eight) => 1,
+        Some(DepthBits::Sixteen) => 2,
     }
 }
 
-fn encode_parcel(parcel: &Parcel, to: &mut Vec<u8>) {
-    let Parcel { environment, source, mask, form_factor, through } = parcel;
-    let through = through.map_or(0, |side| 1 + side.index() as u32);
-    let layout = layout(mask) + LAYOUTS * through;
-    let pixels = mask.pixels() | layout << PIXEL_BITS;
+fn encode_parcel(parcel: &Source, to: &mut Vec<u8>) {
+    let Source { environment, emitter: source, mask, form_factor } = parcel;
+    let pixels = mask.pixels() | layout(mask) << PIXEL_BITS;
     let numbers = [*environment, source.environment, source.patch, source.polygon, pixels];
     numbers.iter().for_each(|n| to.extend(n.to_le_bytes()));
     for vector in [source.centre, source.normal, source.power, source.radiosity] {
@@ -178,7 +168,7 @@ fn encode_parcel(parcel: &Parcel, to: &mut Vec<u8>) {
     }
     to.extend(form_factor.to_le_bytes());
     match mask.steps() {
-        None => encode_words(&mask.travelling(), to),
+        None => encode_words(mask.words(), to),
         Some((steps, DepthBits::Eight)) => to.extend(steps.iter().map(|&steps| steps as u8)),
         Some((steps, DepthBits::Sixteen)) => {
             steps.iter().for_each(|steps| to.extend(steps.to_le_bytes()));
@@ -194,10 +184,10 @@ fn encode_words(words: &[u64], to: &mut Vec<u8>) {
     }
 }
 
-fn decode_parcel(from: &mut Reader) -> Result<Parcel, DecodeError> {
+fn decode_parcel(from: &mut Reader) -> Result<Source, DecodeError> {
     let (environment, source_environment) = (from.u32()?, from.u32()?);
     let (patch, polygon, pixels) = (from.u32()?, from.u32()?, from.u32()?);
-    let source = Source {
+    let source = Emitter {
         environment: source_environment,
         patch,
         polygon,
@@ -208,17 +198,15 @@ fn decode_parcel(from: &mut Reader) -> Result<Parcel, DecodeError> {
     };
     let form_factor = from.f64()?;
     let (pixels, layout) = (pixels & ((1 << PIXEL_BITS) - 1), pixels >> PIXEL_BITS);
-    let mask = decode_mask(std::mem::take(&mut from.0), pixels, layout % LAYOUTS)?;
-    let through = (layout / LAYOUTS).checked_sub(1);
-    let through = through.and_then(|side| Side::ALL.get(side as usize)).copied();
-    Ok(Parcel { environment, source, mask, form_factor, through })
+    let mask = decode_mask(std::mem::take(&mut from.0), pixels, layout)?;
+    Ok(Source { environment, emitter: source, mask, form_factor })
 }
 
 /// A mask from what has travelled, with its pixels and its layout.
 fn decode_mask(from: &[u8], pixels: u32, layout: u32) -> Result<Mask, DecodeError> {
-    let depths = (layout.checked_sub(COARSENESSES)).and_then(|i| DEPTHS.get(i as usize)).copied();
-    let mask = match depths {
-        Some(bits) => {
+    let mask = match layout.checked_sub(1).map(|i| DEPTHS.get(i as usize)) {
+        Some(None) => None,
+        Some(Some(&bits)) => {
             let steps = from.chunks(bits.bits() as usize / 8).map(|chunk| match chunk {
                 &[steps] if bits == DepthBits::Eight => Ok(u16::from(steps)),
                 chunk => Reader(chunk).u16(),
@@ -229,7 +217,7 @@ fn decode_mask(from: &[u8], pixels: u32, layout: u32) -> Result<Mask, DecodeErro
         None => {
             let (words, rest) = from.as_chunks();
             let words = words.iter().map(|&word| u64::from_le_bytes(word)).collect();
-            Mask::arrived(words, pixels, 1 << layout).filter(|_| rest.is_empty())
+            Mask::from_words(words, pixels).filter(|_| rest.is_empty())
         }
     };
     mask.ok_or(DecodeError("mask and pixels differ"))
@@ -254,7 +242,7 @@ mod tests {
     }
 
     fn parcel_with(mask: Mask) -> Message {
-        let source = Source {
+        let source = Emitter {
             environment: 7,
             patch: 1_234,
             polygon: 99,
@@ -263,21 +251,12 @@ mod tests {
             power: DVec3::new(1.0, 2.0, 3.5),
             radiosity: DVec3::new(10.0, 20.0, 35.0),
         };
-        let through = None;
-        Message::Source(Box::new(Parcel {
+        Message::Source(Box::new(Source {
             environment: 8,
-            source,
+            emitter: source,
             mask,
             form_factor: 0.25,
-            through,
         }))
-    }
-
-    fn coarse_parcel(pixels: u32, pixels_a_bit: u32, side: Side) -> Message {
-        let Message::Source(mut parcel) = parcel(pixels) else { unreachable!() };
-        parcel.mask = parcel.mask.coarsened(pixels_a_bit);
-        parcel.through = Some(side);
-        Message::Source(parcel)
     }
 
     /// Every third bin is empty.
@@ -293,8 +272,6 @@ mod tests {
         for message in [
             parcel(30_976),
             parcel(65),
-            coarse_parcel(30_976, 8, Side::ALL[0]),
-            coarse_parcel(65, 64, Side::ALL[5]),
             Message::Update(vec![update; 3]),
             Message::Update(vec![]),
             Message::Collect,
@@ -336,9 +313,6 @@ mod tests {
         for (bits, more) in [(DepthBits::Eight, 30_976), (DepthBits::Sixteen, 2 * 30_976)] {
             assert_eq!(dimmed(30_976, bits).encode().len(), bytes - 3_872 + more);
         }
-        // With eight pixels a bit an eighth of the mask.
-        let bytes = coarse_parcel(30_976, 8, Side::ALL[3]).encode().len();
-        assert_eq!(bytes, 1 + 5 * 4 + 4 * 24 + 8 + 488);
     }
 
     #[test]

@@ -7,7 +7,7 @@ use desim::{Duration, Time};
 use multicomputer::{Rank, Stall};
 use radiosity::{Rgb, Shot};
 
-use crate::message::Parcel;
+use crate::message::Source;
 use crate::message_kind::MessageKind;
 
 /// Told what happens in a simulated run, in the order of virtual time. The rank that follows those of
@@ -30,10 +30,10 @@ pub trait Observer {
     fn read(&mut self, _now: Time, _rank: Rank, _number: u64) {}
 
     /// A node has chosen what it will shoot next (§4.2.2).
-    fn selected(&mut self, _now: Time, _rank: Rank, _source: &Parcel) {}
+    fn selected(&mut self, _now: Time, _rank: Rank, _source: &Source) {}
 
     /// A node has shot a source, and its patches reflect so much of it, W.
-    fn shot(&mut self, _now: Time, _rank: Rank, _source: &Parcel, _shot: &Shot, _reflected: Rgb) {}
+    fn shot(&mut self, _now: Time, _rank: Rank, _source: &Source, _shot: &Shot, _reflected: Rgb) {}
 
     /// So many sources wait in a node's queue from now on.
     fn queue(&mut self, _now: Time, _rank: Rank, _length: usize) {}

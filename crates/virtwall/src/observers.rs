@@ -4,7 +4,7 @@ use desim::Time;
 use multicomputer::{Rank, Stall};
 use radiosity::{Rgb, Shot};
 
-use crate::message::Parcel;
+use crate::message::Source;
 use crate::observer::{Activity, Observer, SentMessage, SharedObserver};
 
 /// Each is told of everything, in their order.
@@ -33,11 +33,11 @@ impl Observer for Observers {
         self.tell(|one| one.read(now, rank, number));
     }
 
-    fn selected(&mut self, now: Time, rank: Rank, source: &Parcel) {
+    fn selected(&mut self, now: Time, rank: Rank, source: &Source) {
         self.tell(|one| one.selected(now, rank, source));
     }
 
-    fn shot(&mut self, now: Time, rank: Rank, source: &Parcel, shot: &Shot, reflected: Rgb) {
+    fn shot(&mut self, now: Time, rank: Rank, source: &Source, shot: &Shot, reflected: Rgb) {
         self.tell(|one| one.shot(now, rank, source, shot, reflected));
     }
 

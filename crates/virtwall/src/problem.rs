@@ -1,14 +1,14 @@
 //! A scene made ready: meshed, cut into environments, with its hemisphere.
 
 use radiosity::{
-    Bounds, DepthBits, Hemisphere, HemisphereError, LocalEnvironment, Mask, Outgoing, PatchSize,
-    Refinement, Rgb, Scene, Shot, Side, Source, Space, VirtualWalls, Wanted,
+    Bounds, DepthBits, Emitter, Hemisphere, HemisphereError, LocalEnvironment, Mask, Outgoing,
+    PatchSize, Refinement, Rgb, Scene, Shot, Side, Space, VirtualWalls, Wanted,
 };
 use thiserror::Error;
 
 use crate::decomposition::Decomposition;
 use crate::ladder::Ladder;
-use crate::message::Parcel;
+use crate::message::Source;
 use crate::wall_patch::WallPatch;
 
 /// How a scene is meshed and cut.
@@ -195,29 +195,21 @@ impl Problem {
 
     /// A source with what is left of its mask, for each neighbour that it enters (§4.2.3); for none where
     /// virtual walls gather what leaves.
-    pub fn onward(
-        &self,
-        parcel: &Parcel,
-        shot: &Shot,
-        pixels_a_bit: u32,
-    ) -> impl Iterator<Item = Parcel> {
-        let (from, source, masks) = (parcel.environment, parcel.source, self.walls.is_none());
+    pub fn onward(&self, parcel: &Source, shot: &Shot) -> impl Iterator<Item = Source> {
+        let (from, source, masks) = (parcel.environment, parcel.emitter, self.walls.is_none());
         Side::ALL.into_iter().zip(&shot.outgoing).filter_map(move |(side, outgoing)| {
             let Outgoing { mask, form_factor } = outgoing.as_ref().filter(|_| masks)?;
-            // Integers travel for every pixel.
-            let whole = pixels_a_bit == 1 || mask.depth_bits().is_some();
-            Some(Parcel {
+            Some(Source {
                 environment: self.decomposition.neighbour(from, side),
-                source,
-                mask: if whole { mask.clone() } else { mask.coarsened(pixels_a_bit) },
+                emitter: source,
+                mask: mask.clone(),
                 form_factor: *form_factor,
-                through: (!whole).then_some(Side { upper: !side.upper, ..side }),
             })
         })
     }
 
     /// The sources that a wall patch is for the environment behind it: its bins that hold power.
-    pub(crate) fn bins_of(&self, wall_patch: &WallPatch) -> Vec<Parcel> {
+    pub(crate) fn bins_of(&self, wall_patch: &WallPatch) -> Vec<Source> {
         let WallPatch { environment, side, patch, power } = wall_patch;
         let Some(walls) = &self.walls else { return Vec::new() };
         let (around, side) = (self.bounds(*environment), Side::ALL[usize::from(*side)]);
@@ -226,7 +218,7 @@ impl Problem {
             let power = Rgb::from_array(power.map(f64::from));
             let source = walls.source(&around, side, [*patch, bin], power);
             let mask = Mask::all(walls.rays_of(&source).map_or(0, Hemisphere::pixels));
-            Parcel { environment: *environment, source, mask, form_factor: 1.0, through: None }
+            Source { environment: *environment, emitter: source, mask, form_factor: 1.0 }
         };
         powers.map(bin).collect()
     }
@@ -239,7 +231,7 @@ impl Problem {
     }
 
     /// The rays over a source, a pixel of its mask each.
-    pub(crate) fn rays_of(&self, source: &Source, mask: &Mask) -> &Hemisphere {
+    pub(crate) fn rays_of(&self, source: &Emitter, mask: &Mask) -> &Hemisphere {
         let of_wall = self.walls.as_ref().and_then(|walls| walls.rays_of(source));
         of_wall.unwrap_or_else(|| self.hemisphere_of(mask))
     }

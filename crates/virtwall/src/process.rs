@@ -5,7 +5,7 @@ use multicomputer::{Rank, Segment};
 use radiosity::Work;
 
 use crate::footprint::Footprint;
-use crate::message::Parcel;
+use crate::message::Source;
 use crate::observer::Observer;
 
 /// A process on a node, simulated or real. Messages are bytes: what is not encoded does not travel.
@@ -19,7 +19,7 @@ pub trait Process {
 
     /// Wait for what a shot, just computed, and the search after it find missing in the caches. A
     /// process whose caches are not modelled takes no notice.
-    async fn fetch(&self, _source: &Parcel) {}
+    async fn fetch(&self, _source: &Source) {}
 
     /// The program makes something that it keeps in memory. As with the two that follow, a process
     /// whose memory is not modelled takes no notice.

@@ -1,13 +1,13 @@
 //! The network queue of a compute node: sources that wait for one of its environments.
 
-use crate::message::Parcel;
+use crate::message::Source;
 use crate::rules::Selection;
 
 /// Sources received and not yet shot, in order of arrival.
 #[derive(Default)]
 pub(crate) struct Queue {
     /// With the turn in which each came: a source with its mask, or all bins of a wall patch.
-    waiting: Vec<(u64, Vec<Parcel>)>,
+    waiting: Vec<(u64, Vec<Source>)>,
     turns: u64,
 }
 
@@ -18,7 +18,7 @@ impl Queue {
 
     /// Put a source in. With `merge` its mask joins that of the same source, if one waits for the same
     /// environment; else returns its turn. What comes through a wall patch while that waits always does.
-    pub(crate) fn push(&mut self, sources: Vec<Parcel>, merge: bool) -> Option<u64> {
+    pub(crate) fn push(&mut self, sources: Vec<Source>, merge: bool) -> Option<u64> {
         let merged = self.waiting.iter_mut().find(|(_, other)| joins(other, &sources, merge));
         let Some((_, other)) = merged else {
             self.turns += 1;
@@ -26,11 +26,11 @@ impl Queue {
             return Some(self.turns);
         };
         for parcel in sources {
-            match other.binary_search_by_key(&parcel.source.patch, |other| other.source.patch) {
+            match other.binary_search_by_key(&parcel.emitter.patch, |other| other.emitter.patch) {
                 Err(place) => other.insert(place, parcel),
-                Ok(place) if parcel.source.is_of_a_wall() => {
-                    other[place].source.power += parcel.source.power;
-                    other[place].source.radiosity += parcel.source.radiosity;
+                Ok(place) if parcel.emitter.is_of_a_wall() => {
+                    other[place].emitter.power += parcel.emitter.power;
+                    other[place].emitter.radiosity += parcel.emitter.radiosity;
                 }
                 Ok(place) => {
                     other[place].mask.merge(&parcel.mask);
@@ -48,8 +48,8 @@ impl Queue {
     /// left: that is what the message states.
     pub(crate) fn best(&self, selection: Selection, only: Option<u32>) -> Option<(f64, usize)> {
         let value =
-            |source: &Vec<Parcel>| source.iter().map(|p| selection.value(&p.source)).sum::<f64>();
-        let asked = |source: &Vec<Parcel>| {
+            |source: &Vec<Source>| source.iter().map(|p| selection.value(&p.emitter)).sum::<f64>();
+        let asked = |source: &Vec<Source>| {
             only.is_none_or(|only| source.iter().any(|parcel| parcel.environment == only))
         };
         let waiting = (0..).zip(&self.waiting).filter(|(_, (_, source))| asked(source));
@@ -63,16 +63,16 @@ impl Queue {
     }
 
     /// Take a source out, and tell its turn.
-    pub(crate) fn take(&mut self, place: usize) -> (u64, Vec<Parcel>) {
+    pub(crate) fn take(&mut self, place: usize) -> (u64, Vec<Source>) {
         self.waiting.remove(place)
     }
 }
 
 /// Whether sources that arrive are taken up by one that waits: what a wall patch has gathered by what it
 /// had gathered before, a mask by another of the same source if they are to `merge`.
-fn joins(waiting: &[Parcel], sources: &[Parcel], merge: bool) -> bool {
+fn joins(waiting: &[Source], sources: &[Source], merge: bool) -> bool {
     let (Some(one), Some(other)) = (waiting.first(), sources.first()) else { return false };
-    let (a, b) = (&one.source, &other.source);
+    let (a, b) = (&one.emitter, &other.emitter);
     let same = match (a.is_of_a_wall(), b.is_of_a_wall()) {
         (true, true) => a.centre == b.centre && a.normal == b.normal,
         (false, false) => merge && a == b,

@@ -4,7 +4,7 @@ use desim::{Duration, Time};
 use multicomputer::{Rank, Stall};
 use radiosity::{Rgb, Shot};
 
-use crate::message::Parcel;
+use crate::message::Source;
 use crate::message_kind::MessageKind;
 use crate::observer::{Activity, Observer, SentMessage, blocked};
 use crate::outcome::EnergyLedger;
@@ -183,17 +183,17 @@ impl Observer for Recording {
         self.message(number).into_iter().for_each(|message| message.read = Some(now));
     }
 
-    fn selected(&mut self, now: Time, _: Rank, source: &Parcel) {
+    fn selected(&mut self, now: Time, _: Rank, source: &Source) {
         self.ledger.selected(source);
         self.energy_changed(now);
     }
 
-    fn shot(&mut self, now: Time, rank: Rank, source: &Parcel, shot: &Shot, reflected: Rgb) {
+    fn shot(&mut self, now: Time, rank: Rank, source: &Source, shot: &Shot, reflected: Rgb) {
         self.nodes[rank].shots.push(ShotRecord {
             at: now,
             environment: source.environment,
-            source_environment: source.source.environment,
-            patch: source.source.patch,
+            source_environment: source.emitter.environment,
+            patch: source.emitter.patch,
         });
         self.ledger.shot(source, shot, reflected);
         self.energy_changed(now);

@@ -4,10 +4,10 @@ use std::collections::BTreeSet;
 use std::mem;
 use std::sync::Arc;
 
-use radiosity::{Greatest, Light, LocalEnvironment, Operation, Part, Rgb, Shot, Source, Work};
+use radiosity::{Emitter, Greatest, Light, LocalEnvironment, Operation, Part, Rgb, Shot, Work};
 
 use crate::gathered::Gathered;
-use crate::message::{Parcel, PatchUpdate};
+use crate::message::{PatchUpdate, Source};
 use crate::problem::Problem;
 use crate::rules::{Rules, Selection};
 use crate::shooting::Shooting;
@@ -105,7 +105,7 @@ impl Region {
 
     /// The best patch of each environment, if it is at or above the threshold and another than the
     /// last time.
-    pub(crate) fn new_best_sources(&mut self, mut tell: impl FnMut(Parcel)) {
+    pub(crate) fn new_best_sources(&mut self, mut tell: impl FnMut(Source)) {
         for i in mem::take(&mut self.untold) {
             let held = &mut self.holdings[i];
             let best = held.values.best().filter(|&(value, _)| value >= self.threshold);
@@ -138,7 +138,7 @@ impl Region {
     }
 
     /// Take a patch's unshot power as a source with an all-true mask (Figure 2), or as several.
-    pub(crate) fn take(&mut self, holding: usize, patch: u32) -> Vec<Parcel> {
+    pub(crate) fn take(&mut self, holding: usize, patch: u32) -> Vec<Source> {
         let parcels = self.parcels(holding, patch);
         let share = self.share(holding, patch);
         let held = &mut self.holdings[holding];
@@ -159,18 +159,17 @@ impl Region {
     }
 
     /// The source that a patch would be now, or several where it is to be cut.
-    fn parcels(&self, holding: usize, patch: u32) -> Vec<Parcel> {
+    fn parcels(&self, holding: usize, patch: u32) -> Vec<Source> {
         let Problem { space, environments, .. } = &*self.problem;
         let Holding { environment, light, .. } = &self.holdings[holding];
         let geometry = &environments[*environment as usize];
         let mut source = light.source(space, geometry, *environment, patch);
         source.power *= self.share(holding, patch);
-        let parcel = |part: Part| Parcel {
+        let parcel = |part: Part| Source {
             environment: *environment,
-            source: Source { centre: part.centre, power: source.power * part.share, ..source },
+            emitter: Emitter { centre: part.centre, power: source.power * part.share, ..source },
             mask: self.problem.clear_mask(source.power),
             form_factor: 1.0,
-            through: None,
         };
         let parts = self.shooting.split.parts(space, geometry, patch);
         parts.into_iter().map(parcel).collect()
@@ -178,10 +177,10 @@ impl Region {
 
     /// Update the radiosities of the environment in which a source was shot. Returns the power that
     /// its patches reflect of it, W.
-    pub(crate) fn receive(&mut self, parcel: &Parcel, shot: &Shot) -> Rgb {
+    pub(crate) fn receive(&mut self, parcel: &Source, shot: &Shot) -> Rgb {
         let Some(place) = self.place(parcel.environment) else { return Rgb::ZERO };
         let held = &mut self.holdings[place];
-        let reflected = held.light.receive(&parcel.source, shot);
+        let reflected = held.light.receive(&parcel.emitter, shot);
         let geometry = &self.problem.environments[held.environment as usize];
         for &(patch, _) in &shot.hits {
             let value = value(self.selection, geometry, &held.light, patch);
@@ -192,7 +191,7 @@ impl Region {
     }
 
     /// Virtual walls: gather what of a source leaves the environment in which it was shot.
-    pub(crate) fn gather(&mut self, parcel: &Parcel, shot: &Shot) -> Work {
+    pub(crate) fn gather(&mut self, parcel: &Source, shot: &Shot) -> Work {
         let mut work = Work::NONE;
         let Some(place) = self.place(parcel.environment) else { return work };
         let held = &mut self.holdings[place];
@@ -217,7 +216,7 @@ impl Region {
     }
 
     /// By how much the radiosity of each patch that shots of one source hit has grown.
-    pub(crate) fn updates(&self, parcels: &[Parcel], shots: &[Shot]) -> Vec<PatchUpdate> {
+    pub(crate) fn updates(&self, parcels: &[Source], shots: &[Shot]) -> Vec<PatchUpdate> {
         let mut updates: Vec<PatchUpdate> = Vec::new();
         for (parcel, shot) in parcels.iter().zip(shots) {
             updates.extend(self.updates_by(parcel, shot));
@@ -232,8 +231,8 @@ impl Region {
         updates
     }
 
-    fn updates_by(&self, parcel: &Parcel, shot: &Shot) -> impl Iterator<Item = PatchUpdate> {
-        let (environment, arriving) = (parcel.environment, parcel.source.power);
+    fn updates_by(&self, parcel: &Source, shot: &Shot) -> impl Iterator<Item = PatchUpdate> {
+        let (environment, arriving) = (parcel.environment, parcel.emitter.power);
         let geometry = &self.problem.environments[environment as usize];
         let scene = &self.problem.space.scene;
         shot.hits.iter().map(move |&(patch, form_factor)| {

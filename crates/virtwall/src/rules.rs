@@ -1,7 +1,7 @@
 //! What RR-3008 leaves open in its programs.
 
 use desim::Duration;
-use radiosity::{Rgb, Source};
+use radiosity::{Emitter, Rgb};
 
 use crate::decomposition::Mapping;
 use crate::shooting::Shooting;
@@ -62,7 +62,7 @@ pub enum Selection {
 impl Selection {
     /// The value by which sources are compared: the sum of the three colours, which is negative only
     /// where a patch was over-shot, and then counts as much.
-    pub fn value(self, source: &Source) -> f64 {
+    pub fn value(self, source: &Emitter) -> f64 {
         self.value_of(source.power, source.radiosity)
     }
 

@@ -8,7 +8,7 @@ use multicomputer::Rank;
 use radiosity::Shot;
 
 use crate::kept_shots::KeptShots;
-use crate::message::Parcel;
+use crate::message::Source;
 use crate::problem::Problem;
 use crate::rules::Rules;
 
@@ -34,7 +34,7 @@ impl Shared {
     }
 
     /// Cast a source's rays, or find where they end.
-    pub(crate) fn shot(&self, parcel: &Parcel) -> Shot {
+    pub(crate) fn shot(&self, parcel: &Source) -> Shot {
         let (shot, known) = self.kept.shot(&self.problem, parcel);
         self.known.store(known, Ordering::Relaxed);
         shot
@@ -47,15 +47,10 @@ impl Shared {
 
     /// Have a shot that this run will ask for cast ahead by threads that have nothing else to do, and
     /// those that it leads to as well. Where its rays end does not depend on what happens meanwhile.
-    pub(crate) fn foresee(self: &Arc<Self>, parcel: Cow<'_, Parcel>) {
+    pub(crate) fn foresee(self: &Arc<Self>, parcel: Cow<'_, Source>) {
         if !self.want_jobs() {
             return;
         }
-        // Most arrive as they were sent, and most are known: those are not copied.
-        let parcel = match parcel.through {
-            Some(_) => Cow::Owned(self.problem.arriving(parcel.into_owned())),
-            None => parcel,
-        };
         if !self.kept.foresee(&parcel) {
             return;
         }
@@ -63,8 +58,7 @@ impl Shared {
         self.kept.helpers().add(Box::new(move || {
             let Shared { problem, kept, .. } = &*shared;
             kept.cast_ahead(problem, &parcel, |shot| {
-                let pixels_a_bit = shared.rules.shooting.pixels_a_bit;
-                let onward = problem.onward(&parcel, shot, pixels_a_bit);
+                let onward = problem.onward(&parcel, shot);
                 onward.for_each(|parcel| shared.foresee(Cow::Owned(parcel)));
             });
         }));

@@ -7,9 +7,6 @@ use radiosity::{LocalEnvironment, Part, Rgb, Space};
 pub struct Shooting {
     /// Into how many sources a patch is cut.
     pub split: SourceSplit,
-    /// Pixels of the hemisphere that share a bit of the masks that travel: 1, 2, 4 and so on to 64.
-    ///
-    pub pixels_a_bit: u32,
     /// What a patch that does not emit shoots, over what it has not shot; what is too much is missing
     /// from what it will shoot later (Feda and Purgathofer 1992).
     pub overshoot: f64,
@@ -20,7 +17,7 @@ pub struct Shooting {
 
 impl Default for Shooting {
     fn default() -> Shooting {
-        Shooting { split: SourceSplit::NONE, pixels_a_bit: 1, overshoot: 1.0, ambient: false }
+        Shooting { split: SourceSplit::NONE, overshoot: 1.0, ambient: false }
     }
 }
 

@@ -1,9 +1,9 @@
 //! What decides a shot of a problem.
 
-use radiosity::{Mask, Source};
+use radiosity::{Emitter, Mask};
 use xxhash_rust::xxh3::Xxh3Default;
 
-use crate::message::Parcel;
+use crate::message::Source;
 
 /// What decides a shot of a problem: environment, source and mask, whose length tells the hemisphere. The
 /// mask, and where its rays start, stand here by a 128-bit digest: among 10⁹ of them two share theirs with
@@ -21,8 +21,8 @@ impl ShotKey {
     pub const BYTES: usize = 28;
 
     /// The key of a source's shot.
-    pub fn of(parcel: &Parcel) -> ShotKey {
-        let Parcel { environment, source, mask, .. } = parcel;
+    pub fn of(parcel: &Source) -> ShotKey {
+        let Source { environment, emitter: source, mask, .. } = parcel;
         ShotKey {
             environment: *environment,
             source_environment: source.environment,
@@ -54,7 +54,7 @@ impl ShotKey {
     }
 }
 
-fn digest(source: &Source, mask: &Mask) -> u128 {
+fn digest(source: &Emitter, mask: &Mask) -> u128 {
     let mut hasher = Xxh3Default::new();
     hasher.update(&mask.pixels().to_le_bytes());
     source.centre.to_array().iter().for_each(|x| hasher.update(&x.to_bits().to_le_bytes()));

@@ -14,7 +14,7 @@ use crate::compute_node::compute_node;
 use crate::display::DisplayReport;
 use crate::footprint::{Footprint, Thing};
 use crate::interpreter::Interpreter;
-use crate::message::Parcel;
+use crate::message::Source;
 use crate::observer::{Observer, SharedObserver};
 use crate::outcome::{NodeReport, Outcome};
 use crate::process::Process;
@@ -79,7 +79,7 @@ impl Process for SimulatedProcess {
         result
     }
 
-    async fn fetch(&self, source: &Parcel) {
+    async fn fetch(&self, source: &Source) {
         if let Some(storage) = &self.storage {
             let before = self.missing();
             storage.borrow_mut().shoot(source);

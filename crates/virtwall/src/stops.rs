@@ -12,7 +12,7 @@ use multicomputer::{Machine, Network, Rank};
 use radiosity::{Rgb, Shot};
 
 use crate::instants::{Follower, Instant};
-use crate::message::Parcel;
+use crate::message::Source;
 use crate::observer::{Observer, SharedObserver};
 use crate::outcome::Outcome;
 use crate::run::{Run, RunError};
@@ -62,10 +62,10 @@ impl<V: FnMut(Instant<'_>)> Stops<V> {
 }
 
 impl<V: FnMut(Instant<'_>)> Observer for Stops<V> {
-    fn selected(&mut self, now: Time, _: Rank, source: &Parcel) {
+    fn selected(&mut self, now: Time, _: Rank, source: &Source) {
         if source.is_local() {
             if self.parts == 0 {
-                let patch = (source.environment, source.source.patch);
+                let patch = (source.environment, source.emitter.patch);
                 let value = self.value(patch);
                 while self.values.pop_if(|threshold| value < *threshold).is_some() {
                     (self.visit)(self.follower.instant(now));
@@ -77,7 +77,7 @@ impl<V: FnMut(Instant<'_>)> Observer for Stops<V> {
         self.follower.selected(source);
     }
 
-    fn shot(&mut self, _: Time, _: Rank, source: &Parcel, shot: &Shot, reflected: Rgb) {
+    fn shot(&mut self, _: Time, _: Rank, source: &Source, shot: &Shot, reflected: Rgb) {
         self.follower.shot(source, shot, reflected);
     }
 }

@@ -7,7 +7,7 @@ use radiosity::{Block, Hemisphere, Mask, Record, trace};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::message::Parcel;
+use crate::message::Source;
 use crate::problem::Problem;
 
 /// Bytes of the records that the kernels touch: from one to the next, and, where that is less, how
@@ -200,12 +200,12 @@ impl Storage {
     }
 
     /// Touch what a source shot in an environment touches, with the search for the next one afterwards.
-    pub fn shoot(&mut self, parcel: &Parcel) {
+    pub fn shoot(&mut self, parcel: &Source) {
         let problem = Arc::clone(&self.problem);
         let e = parcel.environment as usize;
         let environment = &problem.environments[e];
         let mask = self.next_mask();
-        let Parcel { source, mask: pixels, .. } = parcel;
+        let Source { emitter: source, mask: pixels, .. } = parcel;
         let hemisphere = problem.rays_of(source, pixels);
         let (directions, bytes) = (self.directions_of(pixels), pixels.words().len() as u64 * 8);
         let mut copy = mask;

@@ -9,8 +9,8 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use radiosity::glam::DVec3;
 use radiosity::{
-    End, Face, Grid, Hemisphere, HemisphereKind, LocalEnvironment, Mask, PatchSize, Ray, Scene,
-    Side, Source, Space, Work, cast, shoot, shoot_plainly,
+    Emitter, End, Face, Grid, Hemisphere, HemisphereKind, LocalEnvironment, Mask, PatchSize, Ray,
+    Scene, Side, Space, Work, cast, shoot, shoot_plainly,
 };
 use virtwall::{Problem, ProblemOptions};
 
@@ -105,8 +105,8 @@ fn case() -> impl Strategy<Value = (Scene, ProblemOptions)> {
 }
 
 /// Every patch of a problem as a source.
-fn sources(problem: &Problem) -> Vec<Source> {
-    let source = |environment: u32, patch: u32, p: &radiosity::Patch| Source {
+fn sources(problem: &Problem) -> Vec<Emitter> {
+    let source = |environment: u32, patch: u32, p: &radiosity::Patch| Emitter {
         environment,
         patch,
         polygon: p.polygon,
@@ -124,7 +124,7 @@ fn sources(problem: &Problem) -> Vec<Source> {
 }
 
 /// Follow a ray from environment to environment.
-fn follow(problem: &Problem, source: &Source, ray: &Ray) -> End {
+fn follow(problem: &Problem, source: &Emitter, ray: &Ray) -> End {
     let mut environment = source.environment;
     for _ in 0..10_000 {
         let here = &problem.environments[environment as usize];
@@ -140,7 +140,7 @@ fn follow(problem: &Problem, source: &Source, ray: &Ray) -> End {
 
 /// Shoot a source in its environment, and what is left of its mask in every environment that it is
 /// handed on to, in bundles and plainly.
-fn same_shots(problem: &Problem, source: &Source) {
+fn same_shots(problem: &Problem, source: &Emitter) {
     let mut waiting = vec![(source.environment, Mask::all(problem.hemisphere.pixels()))];
     while let Some((number, mask)) = waiting.pop() {
         let environment = &problem.environments[number as usize];
@@ -154,7 +154,7 @@ fn same_shots(problem: &Problem, source: &Source) {
     }
 }
 
-fn rays<'a>(hemisphere: &'a Hemisphere, source: &Source) -> impl Iterator<Item = Ray> + 'a {
+fn rays<'a>(hemisphere: &'a Hemisphere, source: &Emitter) -> impl Iterator<Item = Ray> + 'a {
     let [t, b, n] = hemisphere.frame(source.centre, source.normal);
     let centre = source.centre;
     hemisphere.directions.iter().map(move |d| Ray::new(centre, t * d.x + b * d.y + n * d.z))
@@ -274,7 +274,7 @@ fn rays_in_the_plane_between_two_environments_have_one_owner() {
     let problem = Problem::new(scene, options).unwrap();
     let centre = DVec3::new(x, 0.0, 1.9);
     let lamp = problem.space.scene.polygons.len() as u32 - 1;
-    let source = Source {
+    let source = Emitter {
         environment: 0,
         patch: 0,
         polygon: lamp,

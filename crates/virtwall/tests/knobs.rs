@@ -32,23 +32,6 @@ fn difference(problem: &Problem, one: &Outcome, other: &Outcome) -> f64 {
     (sums[0] / sums[1]).sqrt()
 }
 
-/// Bytes of masks fall as the bits do, light strays more the fewer there are, and none is lost.
-#[test]
-fn coarse_masks_are_short_and_stray() {
-    let problem = two_rooms_cut([4, 1, 2]);
-    let masks = [1, 4, 16, 64].map(|pixels_a_bit| {
-        outcome(&problem, 0.02, Shooting { pixels_a_bit, ..Shooting::default() })
-    });
-    let exact = &masks[0];
-    let strayed: Vec<f64> = masks.iter().map(|mask| difference(&problem, exact, mask)).collect();
-    assert!(strayed[0] == 0.0 && strayed[1] < 0.05 && strayed.is_sorted(), "{strayed:?}");
-    for (pixels_a_bit, mask) in [1, 4, 16, 64].into_iter().zip(&masks) {
-        let counts = &mask.counts;
-        let bytes = 125 + (1_024_u64 / pixels_a_bit).div_ceil(64) * 8;
-        assert_eq!(counts.message_bytes, counts.messages * bytes);
-    }
-}
-
 #[test]
 fn patches_are_cut_where_something_is_near() {
     let problem = two_rooms_cut([1, 1, 1]);

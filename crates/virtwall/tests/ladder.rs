@@ -11,7 +11,7 @@ use common::{face, grey, options, paragon, rules, same, scene, sides};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use radiosity::{Hemisphere, HemisphereKind, Light, Mask, Rgb, Scene, shoot, shoot_plainly};
-use virtwall::{KeptShots, Message, Parcel, Problem, Rules, Run, simulate};
+use virtwall::{KeptShots, Message, Problem, Rules, Run, Source, simulate};
 
 const PIXELS: u32 = 4_096;
 
@@ -101,8 +101,7 @@ fn light(problem: &Problem) -> (Vec<Told>, BTreeSet<u32>) {
         let environment = &problem.environments[e as usize];
         let source = lights[e as usize].take_source(&problem.space, environment, e, patch);
         let mask = Mask::all(problem.hemisphere_for(source.power).pixels());
-        let mut waiting =
-            vec![Parcel { environment: e, source, mask, form_factor: 1.0, through: None }];
+        let mut waiting = vec![Source { environment: e, emitter: source, mask, form_factor: 1.0 }];
         while let Some(parcel) = waiting.pop() {
             let (here, mask) = (&problem.environments[parcel.environment as usize], &parcel.mask);
             lengths.insert(mask.pixels());
@@ -111,7 +110,7 @@ fn light(problem: &Problem) -> (Vec<Told>, BTreeSet<u32>) {
             });
             assert_eq!(fast, plain);
             lights[parcel.environment as usize].receive(&source, &fast);
-            for onward in problem.onward(&parcel, &fast, 1) {
+            for onward in problem.onward(&parcel, &fast) {
                 let message = Message::Source(Box::new(onward.clone()));
                 let bytes = message.encode();
                 assert_eq!(bytes.len() as u32, 125 + onward.mask.pixels().div_ceil(64) * 8);

@@ -9,8 +9,8 @@ use std::sync::Arc;
 use common::{grey, paragon, rules, same, scene, sides, two_rooms};
 use radiosity::glam::DVec3;
 use radiosity::{
-    Bounds, DepthBits, Hemisphere, HemisphereKind, LocalEnvironment, Mask, Medium, PatchSize, Ray,
-    Rgb, Scene, Side, Source, Space, VirtualWalls, optical_depth, shoot,
+    Bounds, DepthBits, Emitter, Hemisphere, HemisphereKind, LocalEnvironment, Mask, Medium,
+    PatchSize, Ray, Rgb, Scene, Side, Space, VirtualWalls, optical_depth, shoot,
 };
 use virtwall::{Ending, KeptShots, Outcome, Problem, ProblemOptions, Rules, Run, simulate};
 
@@ -110,7 +110,7 @@ fn a_slab_dims_diffuse_light_by_the_exponential_integral() {
         let size = PatchSize { reflector: 1e4, emitter: 1e4 };
         let whole = LocalEnvironment::new(&space, space.grid.whole(), size);
         let hemisphere = Hemisphere::new(HemisphereKind::Fibonacci, 30_976, true).unwrap();
-        let source = Source {
+        let source = Emitter {
             environment: 0,
             patch: 0,
             polygon: 0,
@@ -158,7 +158,7 @@ fn a_shot_loses_no_light() {
         let problem = problem(smoky_rooms(), [4, 2, 1], HemisphereKind::Hemicube, 300);
         for (number, environment) in (0u32..).zip(&problem.environments) {
             for (patch, p) in (0u32..).zip(&environment.patches) {
-                let source = Source {
+                let source = Emitter {
                     environment: number,
                     patch,
                     polygon: p.polygon,

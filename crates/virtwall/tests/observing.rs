@@ -159,7 +159,7 @@ fn energy_closes_at_every_instant() {
 /// What RR-3008 does not do: patches cut in four, over-shooting, an ambient term.
 fn knobs() -> Rules {
     let split = SourceSplit { nearer_than: f64::INFINITY, most: 2 };
-    let shooting = Shooting { split, pixels_a_bit: 1, overshoot: 1.2, ambient: true };
+    let shooting = Shooting { split, overshoot: 1.2, ambient: true };
     Rules { patch_threshold: 0.02, shooting, ..rules() }
 }
 

@@ -1,13 +1,13 @@
 //! A start of rays that is kept clear by a length of one's own choice.
 
-use radiosity::{Ray, Source};
+use radiosity::{Emitter, Ray};
 use virtwall::Problem;
 
 /// Hits nearer than this are taken for the start itself, metres.
 const CLEAR: f64 = 1e-3;
 
 /// The distance of the nearest polygon beyond that length.
-pub fn end(problem: &Problem, _: &Source, ray: &Ray) -> Option<f64> {
+pub fn end(problem: &Problem, _: &Emitter, ray: &Ray) -> Option<f64> {
     let beyond = Ray::new(ray.at(CLEAR), ray.direction);
     let polygons = 0..problem.space.scene.polygons.len() as u32;
     let hits = polygons.filter_map(|p| problem.space.facets.hit(p, &beyond, f64::INFINITY));

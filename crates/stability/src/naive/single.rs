@@ -1,7 +1,7 @@
 //! Triangles in single precision.
 
 use radiosity::glam::{DVec3, Vec3};
-use radiosity::{Ray, Scene, Source};
+use radiosity::{Emitter, Ray, Scene};
 use virtwall::Problem;
 
 use crate::bench::Bench;
@@ -79,7 +79,7 @@ pub fn leaks(bench: &Bench, corners: Corners) -> Count {
 }
 
 /// The nearest polygon; the last one of those at the same distance.
-pub fn last(problem: &Problem, source: &Source, ray: &Ray) -> Option<u32> {
+pub fn last(problem: &Problem, source: &Emitter, ray: &Ray) -> Option<u32> {
     let (origin, direction) = (ray.origin.as_vec3(), ray.direction.as_vec3());
     let mut nearest: Option<(f32, u32)> = None;
     for triangle in triangles(&problem.space.scene, Corners::Shared) {

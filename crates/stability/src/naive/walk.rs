@@ -1,11 +1,11 @@
 //! The textbook's walk through a grid (Amanatides and Woo 1987), taken as it is printed: distances add
 //! up step by step, and what divides by zero is left to turn out well.
 
-use radiosity::{Ray, Source};
+use radiosity::{Emitter, Ray};
 use virtwall::Problem;
 
 /// The distance at which a ray ends.
-pub fn end(problem: &Problem, source: &Source, ray: &Ray) -> Option<f64> {
+pub fn end(problem: &Problem, source: &Emitter, ray: &Ray) -> Option<f64> {
     let grid = &problem.space.grid;
     let cells = grid.cells();
     let mut cell = grid.cell_of(ray.origin).map(i64::from);
