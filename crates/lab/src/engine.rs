@@ -10,7 +10,8 @@ use multicomputer::Machine;
 use radiosity::{Operation, Rgb};
 use serde::Serialize;
 use virtwall::{
-    Ending, Instant, KeptShots, Outcome, Problem, Rules, Run, RunError, SharedObserver, Step, Thing,
+    Ending, Instant, KeptShots, Outcome, Problem, Rules, Run, RunError, SharedObserver,
+    StartUpStep, Thing,
 };
 
 use crate::display::DisplayFigures;
@@ -63,7 +64,7 @@ pub fn load_machine(found: &Found) -> Result<MachineFile, Fault> {
 fn sized(file: MachineFile, found: &Found) -> Result<MachineFile, Fault> {
     let machine = &file.machine;
     let thing = machine.node_memory.as_ref().and_then(Thing::without_size);
-    let step = machine.start_up.as_ref().and_then(Step::without_price);
+    let step = machine.start_up.as_ref().and_then(StartUpStep::without_price);
     let message = match (thing, step) {
         (Some(thing), _) => format!("no size of \"{}\"; expected one of each", thing.name()),
         (_, Some(step)) => {

@@ -52,7 +52,7 @@ const NATIVE: Layout = Layout {
     slot: 4,
     patch: [304, 96, 16],
     scalars: Layout::PLAIN_C.scalars,
-    luck: None,
+    padding_seed: None,
     by_environment: false,
 };
 
@@ -212,10 +212,10 @@ fn modelled(
     problem: &Arc<Problem>,
     shots: &[Source],
     levels: &[CacheLevel],
-    luck: u64,
+    seed: u64,
 ) -> Vec<u64> {
     let caches = Caches::new(levels, None);
-    let mut storage = Storage::new(problem, Layout { luck: Some(luck), ..NATIVE }, caches);
+    let mut storage = Storage::new(problem, Layout { padding_seed: Some(seed), ..NATIVE }, caches);
     let (first, others) = shots.split_at(uncounted(shots));
     first.iter().for_each(|parcel| storage.shoot(parcel));
     let before: Vec<u64> = storage.caches().misses().collect();

@@ -1,78 +1,49 @@
-//! The programs of Inria RR-3008: decomposition, compute node (Figure 9), service node (Figure 6),
-//! termination detection, wire format; on a simulated machine or on threads.
+//! The parallel programs of Inria RR-3008, and the machines that they run on.
+//!
+//! | folder | what is in it |
+//! |---|---|
+//! | `problem` | the scene, meshed and cut into local environments, with its hemispheres |
+//! | `walls` | virtual walls, the method that masks replaced |
+//! | `wire` | the messages, and their bytes |
+//! | `program` | compute node (Figure 9), service node (Figure 6), termination |
+//! | `casting` | how the host gets a shot: cast, kept from another run, cast ahead of time |
+//! | `observe` | who watches a run, and recordings of it |
+//! | `run` | what is to be run, and what came out |
+//! | `on` | back ends: the simulated machine, threads of this host |
+//! | `instants` | the light at any instant of a simulated run |
 //!
 //! Knows nothing of files, plots or the command line.
 
-mod ambient;
-mod bell;
-mod compute_node;
-mod counts;
-mod decomposition;
-mod display;
-mod energy;
-mod footprint;
-mod gathered;
-mod helpers;
+mod casting;
 mod instants;
-mod interpreter;
-mod kept_shots;
-mod ladder;
-mod memory;
-mod message;
-mod message_kind;
-mod observer;
-mod observers;
-mod outcome;
+mod observe;
+mod on;
 mod problem;
-mod process;
-mod queue;
-mod reader;
-mod recording;
-mod region;
-mod ring;
-mod rules;
+mod program;
 mod run;
-mod service_node;
-mod shared;
-mod shooting;
-mod shot_code;
-mod shot_key;
-mod simulation;
-mod start_up;
-mod step;
-mod stops;
-mod storage;
-mod threads;
-mod wall_patch;
+mod walls;
+mod wire;
 
-pub use compute_node::{ComputeNode, compute_node};
-pub use counts::Counts;
-pub use decomposition::{Decomposition, Mapping};
-pub use display::DisplayReport;
-pub use footprint::{Footprint, Thing};
-pub use helpers::Helpers;
-pub use instants::{Instant, radiosity_at, visit_instants};
-pub use kept_shots::{Archive, KeptShots, ShotCounts};
-pub use memory::Memory;
-pub use message::{Message, PatchUpdate, Source, Sums};
-pub use message_kind::MessageKind;
-pub use observer::{Activity, Observer, SentMessage, SharedObserver};
-pub use observers::Observers;
-pub use outcome::{Ending, EnergyLedger, NodeReport, Outcome};
-pub use problem::{CutScene, Problem, ProblemError, ProblemOptions};
-pub use process::Process;
-pub use reader::DecodeError;
-pub use recording::{EnergyAt, MessageRecord, NodeRecord, Recording, ShotRecord, Span};
-pub use region::Region;
-pub use rules::{Order, Rules, Selection, Ties};
-pub use run::{Run, RunError};
-pub use service_node::{Collection, service_node};
-pub use shooting::{Shooting, SourceSplit};
-pub use shot_key::ShotKey;
-pub use simulation::{simulate, simulate_observed, simulate_over};
-pub use start_up::{StartUpReport, start_up};
-pub use step::Step;
-pub use stops::visit_stops;
-pub use storage::{Layout, Storage};
-pub use threads::run_on_threads;
-pub use wall_patch::WallPatch;
+pub use casting::{Archive, Helpers, KeptShots, Memory, ShotCounts, ShotKey};
+pub use instants::{Instant, radiosity_at, visit_instants, visit_stops};
+pub use observe::{
+    Activity, EnergyAt, EnergyLedger, MessageRecord, NodeRecord, Observer, Observers, Recording,
+    SentMessage, SharedObserver, ShotRecord, Span,
+};
+pub use on::RunError;
+pub use on::simulated::{
+    Layout, StartUpReport, StartUpStep, Storage, Thing, simulate, simulate_observed, simulate_over,
+    start_up,
+};
+pub use on::threads::run_on_threads;
+pub use problem::{
+    CutScene, Decomposition, Mapping, Problem, ProblemError, ProblemOptions, Rank, Shooting,
+    Source, SourceSplit,
+};
+pub use program::{
+    Collection, ComputeNode, Display, EnvironmentResult, Event, NoDisplay, NodeResult, Order,
+    Process, Queue, Rules, Selection, Step, Ties, Turn, Unreadable, compute_node, service_node,
+};
+pub use run::{Counts, DisplayReport, Ending, NodeReport, Outcome, Run};
+pub use walls::WallPatch;
+pub use wire::{DecodeError, Message, MessageKind, PatchUpdate, Sums};

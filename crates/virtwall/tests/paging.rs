@@ -9,7 +9,7 @@ use std::sync::Arc;
 use common::{grey, problem, rules, same, scene, sides};
 use desim::{Duration, Time};
 use multicomputer::Machine;
-use virtwall::{KeptShots, Outcome, Problem, Run, RunError, Thing, simulate};
+use virtwall::{KeptShots, Outcome, Problem, Run, RunError, simulate};
 
 /// The Paragon with nodes that have so many bytes left, a mebibyte of them for messages; none:
 /// memory is not modelled.
@@ -110,5 +110,6 @@ fn the_high_water_mark_is_what_there_was() {
 fn a_thing_without_a_size_is_refused() {
     let mut machine = paragon(Some(1 << 30));
     machine.node_memory.as_mut().unwrap().sizes.remove("cell");
-    assert!(matches!(simulate(&two_rooms(1), &machine), Err(RunError::Size(Thing::Cell))));
+    let error = simulate(&two_rooms(1), &machine).unwrap_err();
+    assert!(matches!(error, RunError::Missing { name: "cell", .. }), "{error}");
 }

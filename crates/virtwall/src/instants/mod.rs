@@ -1,0 +1,9 @@
+//! The light of a simulated run at given instants, and at given thresholds: the run is made once more.
+
+mod follower;
+mod instants;
+mod stops;
+
+pub use follower::Instant;
+pub use instants::{radiosity_at, visit_instants};
+pub use stops::visit_stops;

@@ -1,0 +1,102 @@
+//! What a run in one local environment would have ended with at higher thresholds.
+//!
+//! Patches are shot in the order of their values, so that until the best falls below a threshold a run with a
+//! lower one is the same. Among several environments it is not: a part of a patch that was handed on is worth
+//! less than the patch, so that patches below the threshold may be shot before it, and it may raise others
+//! above.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use desim::Time;
+use multicomputer::{Machine, Network, Rank};
+use radiosity::{Rgb, Shot};
+
+use super::follower::{Follower, Instant};
+use crate::observe::{Observer, SharedObserver};
+use crate::on::RunError;
+use crate::on::simulated::simulate_observed;
+use crate::problem::Source;
+use crate::run::{Outcome, Run};
+
+/// Visits a run whenever its best patch falls below a threshold.
+struct Stops<V> {
+    follower: Follower,
+    /// The run, for its rules.
+    run: Run,
+    /// Values to come, the next and greatest one last.
+    values: Vec<f64>,
+    /// Parts to come of the patch that was selected last.
+    parts: usize,
+    visit: V,
+}
+
+impl<V: FnMut(Instant<'_>)> Stops<V> {
+    fn new(run: &Run, thresholds: &[f64], visit: V) -> Stops<V> {
+        let (follower, run) = (Follower::new(run), run.clone());
+        let selection = run.rules.selection;
+        let brightest = run.problem.brightest(|power, b| selection.value_of(power, b));
+        let mut values: Vec<f64> = thresholds.iter().map(|part| brightest * part).collect();
+        values.sort_unstable_by(f64::total_cmp);
+        Stops { follower, run, values, parts: 0, visit }
+    }
+
+    /// The value by which a patch is selected.
+    fn value(&self, (environment, patch): (u32, u32)) -> f64 {
+        let power = self.follower.light[environment as usize].unshot[patch as usize];
+        let area = self.run.problem.environments[environment as usize].radiosity_area(patch);
+        self.run.rules.selection.value_of(power, power / area)
+    }
+
+    /// A patch gives away what it shoots, with all its parts at once.
+    fn take(&mut self, (environment, patch): (u32, u32)) {
+        let Run { problem, rules, .. } = &self.run;
+        let geometry = &problem.environments[environment as usize];
+        let left = 1.0 - rules.shooting.share(geometry.emitted_power(&problem.space, patch));
+        self.follower.light[environment as usize].unshot[patch as usize] *= left;
+        self.parts = rules.shooting.split.parts(&problem.space, geometry, patch).len();
+    }
+}
+
+impl<V: FnMut(Instant<'_>)> Observer for Stops<V> {
+    fn selected(&mut self, now: Time, _: Rank, source: &Source) {
+        if source.is_local() {
+            if self.parts == 0 {
+                let patch = (source.environment, source.emitter.patch);
+                let value = self.value(patch);
+                while self.values.pop_if(|threshold| value < *threshold).is_some() {
+                    (self.visit)(self.follower.instant(now));
+                }
+                self.take(patch);
+            }
+            self.parts -= 1;
+        }
+        self.follower.selected(source);
+    }
+
+    fn shot(&mut self, _: Time, _: Rank, source: &Source, shot: &Shot, reflected: Rgb) {
+        self.follower.shot(source, shot, reflected);
+    }
+}
+
+/// Simulate a run in one environment and visit what it would have ended with at each of `thresholds`, parts
+/// of the brightest patch, in falling order. Those below the run's own show its end.
+///
+/// # Errors
+/// Why the run could not be made, or did not end.
+pub fn visit_stops(
+    run: &Run,
+    machine: &Machine,
+    network: Box<dyn Network>,
+    thresholds: &[f64],
+    visit: impl FnMut(Instant<'_>) + 'static,
+) -> Result<Outcome, RunError> {
+    let stops = Rc::new(RefCell::new(Stops::new(run, thresholds, visit)));
+    let observer: SharedObserver = stops.clone();
+    let outcome = simulate_observed(run, machine, network, Some(observer))?;
+    let mut stops = stops.borrow_mut();
+    let Stops { follower, values, visit, .. } = &mut *stops;
+    values.drain(..).for_each(|_| visit(follower.instant(outcome.time)));
+    drop(stops);
+    Ok(outcome)
+}

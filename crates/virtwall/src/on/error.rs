@@ -1,0 +1,42 @@
+//! Why a run could not be made, or did not end.
+
+use desim::Stalled;
+use multicomputer::MachineError;
+use thiserror::Error;
+
+use crate::program::Unreadable;
+
+/// Why a run could not be made, or did not end.
+#[derive(Debug, Error)]
+pub enum RunError {
+    /// No processor, or more than there are environments.
+    #[error("{processors} processors; expected 1 to {environments}, one environment each at least")]
+    Processors {
+        /// What was asked for.
+        processors: usize,
+        /// Environments of the problem.
+        environments: usize,
+    },
+    /// The machine has too few nodes.
+    #[error(transparent)]
+    Machine(#[from] MachineError),
+    /// The machine file lacks a number that the programs need.
+    #[error("the machine's {part} for \"{name}\"; expected {unit} under that name")]
+    Missing {
+        /// What the machine file lacks: "processor has no price".
+        part: &'static str,
+        /// The operation, thing or step that needs it.
+        name: &'static str,
+        /// What it is counted in.
+        unit: &'static str,
+    },
+    /// Every process waits and nothing is under way.
+    #[error(transparent)]
+    Stalled(#[from] Stalled),
+    /// A process received bytes that are not a message.
+    #[error(transparent)]
+    Unreadable(#[from] Unreadable),
+    /// A thread of a run on threads panicked.
+    #[error("a compute node's thread failed")]
+    Thread,
+}

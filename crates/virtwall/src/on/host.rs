@@ -1,0 +1,86 @@
+//! What every back end does besides running the programs: it looks ahead for shots, counts, and encodes.
+
+use std::borrow::Cow;
+use std::cell::Cell;
+use std::sync::Arc;
+
+use radiosity::Work;
+
+use crate::casting::LookAhead;
+use crate::problem::Rank;
+use crate::program::{Event, Unreadable};
+use crate::run::Counts;
+use crate::wire::{Message, MessageKind};
+
+/// The host's side of a run.
+#[derive(Clone)]
+pub(super) struct Host {
+    pub look_ahead: Arc<LookAhead>,
+    /// Called after every shot.
+    pub on_shot: Arc<dyn Fn() + Send + Sync>,
+}
+
+impl Host {
+    /// Something has happened in a program.
+    pub fn note(&self, event: &Event) {
+        match event {
+            Event::Brightest(emitter) => self.look_ahead.foresee_patch(emitter),
+            Event::HandedOn(source) => self.look_ahead.foresee(Cow::Borrowed(source)),
+            Event::Shot { .. } => (self.on_shot)(),
+            Event::Selected(_) | Event::Queued { .. } | Event::Taken { .. } => {}
+        }
+    }
+}
+
+/// Counts the operations of a process and the messages that it sends.
+#[derive(Default)]
+pub(super) struct Meter {
+    work: Cell<Work>,
+    counts: Cell<Counts>,
+}
+
+impl Meter {
+    /// The process has carried out a step.
+    pub fn work(&self, work: Work) {
+        self.work.set(self.work.get() + work);
+    }
+
+    /// The bytes of a message that the process sends.
+    pub fn encode(&self, message: &Message) -> Vec<u8> {
+        let bytes = message.encode();
+        let (mut counts, length) = (self.counts.get(), bytes.len() as u64);
+        match MessageKind::of(message) {
+            MessageKind::Source | MessageKind::WallPatch => {
+                counts.messages += 1;
+                counts.message_bytes += length;
+            }
+            MessageKind::Update => {
+                counts.update_messages += 1;
+                counts.update_bytes += length;
+            }
+            _ => counts.control_messages += 1,
+        }
+        self.counts.set(counts);
+        bytes
+    }
+
+    /// What was counted.
+    pub fn read(&self) -> (Counts, Work) {
+        (self.counts.get(), self.work.get())
+    }
+}
+
+/// The sum of what processes counted.
+pub(super) fn total(meters: impl IntoIterator<Item = (Counts, Work)>) -> (Counts, Work) {
+    meters.into_iter().fold((Counts::default(), Work::NONE), |mut all, (counts, work)| {
+        all.0 += counts;
+        all.1 += work;
+        all
+    })
+}
+
+/// The message that bytes stand for.
+pub(super) fn decode(to: Rank, from: Rank, bytes: &[u8]) -> Result<(Rank, Message), Unreadable> {
+    let message = Message::decode(bytes).map_err(|error| Unreadable { from, to, error })?;
+    Ok((from, message))
+}

@@ -1,0 +1,9 @@
+//! Back ends: what the programs run on. Each is a folder of its own.
+
+mod error;
+mod host;
+mod prepared;
+pub(crate) mod simulated;
+pub(crate) mod threads;
+
+pub use error::RunError;

@@ -1,0 +1,158 @@
+//! Runs on a simulated machine.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+use std::sync::Arc;
+
+use desim::{Duration, Simulation, Time};
+use multicomputer::{
+    Caches, Machine, MachineObserver, Multicomputer, Network, NodeAccount, Socket,
+};
+
+use super::footprint::Thing;
+use super::interpreter::{Envelope, Interpreter};
+use super::layout::Layout;
+use super::prices::Prices;
+use super::process::SimulatedProcess;
+use super::storage::Storage;
+use crate::observe::SharedObserver;
+use crate::on::error::RunError;
+use crate::on::host::{Meter, total};
+use crate::on::prepared::Prepared;
+use crate::problem::Rank;
+use crate::program::{NodeResult, Process, Unreadable, compute_node, service_node};
+use crate::run::{DisplayReport, NodeReport, Outcome, Run};
+
+/// Run on a simulated machine.
+///
+/// # Errors
+/// Why the run could not be made, or did not end.
+pub fn simulate(run: &Run, machine: &Machine) -> Result<Outcome, RunError> {
+    simulate_over(run, machine, machine.network())
+}
+
+/// Run on a simulated machine with another network than its own.
+///
+/// # Errors
+/// Why the run could not be made, or did not end.
+pub fn simulate_over(
+    run: &Run,
+    machine: &Machine,
+    network: Box<dyn Network>,
+) -> Result<Outcome, RunError> {
+    simulate_observed(run, machine, network, None)
+}
+
+/// The same, with an observer.
+///
+/// # Errors
+/// Why the run could not be made, or did not end.
+pub fn simulate_observed(
+    run: &Run,
+    machine: &Machine,
+    network: Box<dyn Network>,
+    observer: Option<SharedObserver>,
+) -> Result<Outcome, RunError> {
+    let Prepared { nodes, collection, host } = Prepared::new(run)?;
+    let prices = Rc::new(Prices::of(machine)?);
+    let memory = machine.node_memory.as_ref();
+    memory.map_or(Ok(()), Thing::all_have_sizes)?;
+    let memory = memory.cloned().map(Rc::new);
+    let simulation = Simulation::new();
+    let handle = simulation.handle();
+    let multicomputer = Multicomputer::with_network(&handle, machine, run.processors, network)?;
+    let interpreter = observer.map(|observer| {
+        let interpreter = Rc::new(RefCell::new(Interpreter::new(observer, run.processors + 1)));
+        let observer: Rc<RefCell<dyn MachineObserver<Envelope>>> = interpreter.clone();
+        multicomputer.observe(&observer);
+        interpreter
+    });
+    let process = |rank: Rank| SimulatedProcess {
+        node: multicomputer.node(rank),
+        problem: Arc::clone(&run.problem),
+        prices: Rc::clone(&prices),
+        memory: memory.clone(),
+        storage: storage(run, machine),
+        interpreter: interpreter.clone(),
+        host: host.clone(),
+        meter: Meter::default(),
+    };
+    let finished = Rc::new(RefCell::new(Vec::new()));
+    let unreadable = Rc::new(RefCell::new(None));
+    for (rank, node) in nodes.into_iter().enumerate() {
+        let (process, finished, unreadable) =
+            (process(rank), Rc::clone(&finished), Rc::clone(&unreadable));
+        let environments: Vec<u32> = node.environments().collect();
+        handle.spawn(format!("compute node {rank}"), async move {
+            process.settle(environments.into_iter());
+            match compute_node(&process, node).await {
+                Ok(result) => finished.borrow_mut().push(Finished::new(&process, result)),
+                Err(error) => *unreadable.borrow_mut() = Some(error),
+            }
+            process.node.finish();
+        });
+    }
+    let service = process(run.processors);
+    let socket = machine.display.as_ref();
+    let socket = socket.map(|display| Rc::new(Socket::new(display, service.node.clone())));
+    let (display, failed) = (socket.clone(), Rc::clone(&unreadable));
+    handle.spawn("service node", async move {
+        if let Err(error) = service_node(&service, &display, collection).await {
+            *failed.borrow_mut() = Some(error);
+        }
+        service.node.finish();
+    });
+    let ended = simulation.run();
+    // The others wait for a process that could not read a message: that is why the run has stalled.
+    let failed: Option<Unreadable> = unreadable.take();
+    failed.map_or(Ok(()), Err)?;
+    ended?;
+    let outcome = outcome(run, &multicomputer.accounts(), finished.take());
+    let ended = (outcome.time, outcome.counts.update_messages);
+    let accounts = multicomputer.accounts();
+    let display = socket.map(|s| DisplayReport::of(ended, &accounts, &s.account()));
+    Ok(Outcome { display, ..outcome })
+}
+
+/// The records that kernels touch, before the machine's caches, if it has any. A node's life begins with
+/// empty caches.
+fn storage(run: &Run, machine: &Machine) -> Option<RefCell<Storage>> {
+    let levels = Some(&machine.processor.caches).filter(|caches| !caches.is_empty())?;
+    let caches = Caches::new(levels, machine.processor.translations.as_ref());
+    Some(RefCell::new(Storage::new(&run.problem, Layout::PLAIN_C, caches)))
+}
+
+/// A compute node that has ended.
+struct Finished {
+    at: Time,
+    result: NodeResult,
+    missing: [Duration; 2],
+    counted: (crate::run::Counts, radiosity::Work),
+}
+
+impl Finished {
+    fn new(process: &SimulatedProcess, result: NodeResult) -> Finished {
+        let (missing, counted) = (process.missing(), process.meter.read());
+        Finished { at: process.now(), result, missing, counted }
+    }
+}
+
+fn outcome(run: &Run, accounts: &[NodeAccount], mut finished: Vec<Finished>) -> Outcome {
+    finished.sort_unstable_by_key(|node| node.result.rank);
+    let time = finished.iter().map(|node| node.at).max().unwrap_or(Time::ZERO);
+    let reports = accounts.iter().zip(&finished).map(|(account, node)| NodeReport {
+        compute: account.compute,
+        missing: node.missing[0],
+        translating: node.missing[1],
+        overhead: account.overhead(),
+        paging: account.paging,
+        memory_high_water: account.memory_high_water,
+        idle: account.idle,
+        layer: account.layer,
+        ..NodeReport::default()
+    });
+    let reports = reports.collect();
+    let (results, counted): (Vec<_>, Vec<_>) =
+        finished.into_iter().map(|node| (node.result, node.counted)).unzip();
+    Outcome::of(run, time, results, total(counted), reports)
+}

@@ -1,0 +1,103 @@
+//! What a program may do on its node, whatever the machine.
+
+use std::collections::BTreeSet;
+
+use desim::Time;
+use radiosity::{Emitter, Rgb, Shot, Work};
+use thiserror::Error;
+
+use super::queue::{Queue, Turn};
+use crate::problem::{Rank, Source};
+use crate::wire::{DecodeError, Message};
+
+/// A process on a node: simulated, a thread, or one of a real machine. The program says what it does; the
+/// back end knows what that costs.
+#[expect(async_fn_in_trait, reason = "a process stays on its own thread")]
+pub trait Process {
+    /// Its rank.
+    fn rank(&self) -> Rank;
+
+    /// The time since the program began.
+    fn now(&self) -> Time;
+
+    /// Carry out a step of the program; `job` returns the operations that it counted.
+    async fn compute<T>(&self, step: Step<'_>, job: impl FnOnce() -> (T, Work)) -> T;
+
+    /// Send a message.
+    async fn send(&self, to: Rank, message: Message);
+
+    /// The messages that have arrived since the last call, with their senders, in order of arrival.
+    ///
+    /// # Errors
+    /// If one of them cannot be read.
+    async fn receive(&self) -> Result<Vec<(Rank, Message)>, Unreadable>;
+
+    /// Idle until a message has arrived that was not received, or until a time; whether one has arrived.
+    async fn wait(&self, until: Option<Time>) -> bool;
+
+    /// Something has happened in the program. Nothing depends on the answer: there is none.
+    fn note(&self, _event: Event<'_>) {}
+}
+
+/// What a program computes.
+pub enum Step<'a> {
+    /// Search for the best source (§4.2.2).
+    Select {
+        /// The local environments whose patches are searched.
+        searched: &'a BTreeSet<u32>,
+        /// The queue, which is searched whole.
+        queued: &'a Queue,
+    },
+    /// Cast the rays of a source and update radiosities (§4.2.3).
+    Shoot(&'a Source),
+    /// Gather on virtual walls what leaves an environment.
+    Gather,
+}
+
+/// What has happened in a program.
+pub enum Event<'a> {
+    /// Another patch has become the brightest of its environment. It will be shot sooner or later: its
+    /// unshot power only grows.
+    Brightest(&'a Emitter),
+    /// A source was selected.
+    Selected(&'a Source),
+    /// A source was shot, and the patches reflect this power of it, W.
+    Shot {
+        /// The source.
+        source: &'a Source,
+        /// Where its rays ended.
+        shot: &'a Shot,
+        /// Reflected power, W.
+        reflected: Rgb,
+    },
+    /// A source is handed on to its environment, on this node or another.
+    HandedOn(&'a Source),
+    /// A source was put into the queue, which now holds `waiting`.
+    Queued {
+        /// The source.
+        source: &'a Source,
+        /// Its number in the queue.
+        turn: Turn,
+        /// Sources in the queue.
+        waiting: usize,
+    },
+    /// A source was taken from the queue, which now holds `waiting`.
+    Taken {
+        /// Its number in the queue.
+        turn: Turn,
+        /// Sources in the queue.
+        waiting: usize,
+    },
+}
+
+/// A message that cannot be read. It ends the run.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error("process {to} received a message from process {from} that cannot be read: {error}")]
+pub struct Unreadable {
+    /// The sender.
+    pub from: Rank,
+    /// The receiver.
+    pub to: Rank,
+    /// What is wrong with it.
+    pub error: DecodeError,
+}

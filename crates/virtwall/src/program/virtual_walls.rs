@@ -1,0 +1,77 @@
+//! Virtual walls in place of masks: `send_wall_patches` takes the place of sending masks.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use radiosity::{Operation, Rgb, Shot, Work};
+
+use super::compute_node::ComputeNode;
+use super::process::{Process, Step};
+use crate::problem::Source;
+use crate::walls::{Gathered, WallPatch};
+use crate::wire::Message;
+
+/// The virtual walls of a compute node, by environment.
+#[derive(Default)]
+pub(super) struct Walls(BTreeMap<u32, Gathered>);
+
+impl Walls {
+    /// Power that was gathered and not handed on, W.
+    pub fn power(&self) -> Rgb {
+        self.0.values().map(Gathered::power).sum()
+    }
+}
+
+impl ComputeNode {
+    /// Gather what leaves the environment, then hand on the wall patches that are worth more than the best
+    /// source that is left on this node.
+    pub(super) async fn send_wall_patches(
+        &mut self,
+        process: &impl Process,
+        source: &Source,
+        shot: &Shot,
+    ) {
+        let mut work = Work::NONE;
+        let gathered = self.walls.0.entry(source.environment).or_default();
+        work.count(Operation::Hit, gathered.gather(&self.shared.problem, source, shot));
+        let wall_patches =
+            if self.selecting { self.take_wall_patches(&mut work) } else { Vec::new() };
+        process.compute(Step::Gather, || ((), work)).await;
+        for wall_patch in wall_patches {
+            let sources = wall_patch.sources(&self.shared.problem);
+            self.hand_on(process, &sources.iter().collect::<Vec<_>>());
+            match self.shared.owners[wall_patch.environment as usize] {
+                owner if owner == process.rank() => {
+                    sources.into_iter().for_each(|source| self.enqueue(process, source));
+                }
+                owner => {
+                    self.send_source(process, owner, Message::WallPatch(Box::new(wall_patch)))
+                        .await;
+                }
+            }
+        }
+    }
+
+    /// Take the wall patches that are worth handing on.
+    fn take_wall_patches(&mut self, work: &mut Work) -> Vec<WallPatch> {
+        let shared = Arc::clone(&self.shared);
+        let received = self.queue.best(None).map(|(value, _)| value);
+        let local = self.region.best_patch(None).map(|best| best.value);
+        let least = received.into_iter().chain(local).fold(shared.wall_threshold, f64::max);
+        let selection = shared.rules.selection;
+        let worth = |power, radiosity| selection.value_of(power, radiosity) >= least;
+        let mut taken = Vec::new();
+        for (&environment, gathered) in &mut self.walls.0 {
+            work.count(Operation::PatchScan, gathered.len());
+            taken.extend(gathered.hand_on(&shared.problem, environment, worth));
+        }
+        work.count(Operation::WordCopied, taken.iter().map(WallPatch::words).sum());
+        taken
+    }
+
+    /// Put the bins of a wall patch into the queue, each a source.
+    pub(super) fn enqueue_wall_patch(&mut self, process: &impl Process, wall_patch: &WallPatch) {
+        let sources = wall_patch.sources(&self.shared.problem);
+        sources.into_iter().for_each(|source| self.enqueue(process, source));
+    }
+}

@@ -1,0 +1,8 @@
+//! Virtual walls between local environments, the method of RR-3008's reference [1] that masks replaced: energy
+//! that leaves an environment is gathered by wall patch and direction, and handed on in lumps.
+
+mod gathered;
+mod wall_patch;
+
+pub(crate) use gathered::Gathered;
+pub use wall_patch::WallPatch;

@@ -1,0 +1,12 @@
+//! The messages between processes, and their bytes.
+
+mod kind;
+mod message;
+mod reader;
+mod source;
+mod wall_patch;
+
+pub use kind::MessageKind;
+pub use message::{Message, PatchUpdate, Sums};
+pub use reader::DecodeError;
+pub(crate) use reader::Reader;
