@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use lab::OpenScene;
 use radiosity::{Scene, Space};
-use reference::{Estimate, ObjectRays, Objects, parallel};
+use reference::{Estimate, ObjectRays, Objects};
 use serde_json::json;
 
 use crate::exit::Exit;
@@ -87,7 +87,7 @@ fn exact(scene: &Scene, tolerance: f64, threads: usize) -> Matrix {
         let (from, to) = pairs[pair];
         objects.exact(from, to, tolerance)
     };
-    let found = parallel::map(pairs.len(), threads, work, || steps.one());
+    let found = parallel::map(pairs.len(), threads, steps.counting(work));
     steps.end();
     let mut matrix = vec![vec![Estimate::default(); count]; count];
     for ((i, j), [there, back]) in pairs.into_iter().zip(found) {
@@ -103,7 +103,7 @@ fn by_rays(open: &OpenScene, arguments: &Arguments, threads: usize) -> Result<Ma
     let rays = ObjectRays::new(&objects, &space, arguments.rays, arguments.seed)
         .map_err(Exit::bad_input)?;
     let steps = Steps::new("objects", objects.count());
-    let matrix = parallel::map(objects.count(), threads, |from| rays.from(from), || steps.one());
+    let matrix = parallel::map(objects.count(), threads, steps.counting(|from| rays.from(from)));
     steps.end();
     Ok(matrix)
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use lab::OpenScene;
 use radiosity::{LocalEnvironment, PatchSize, Space};
-use reference::{Dense, Method, Patches, Paths, Problem, Received, Reference, Subject, parallel};
+use reference::{Dense, Method, Patches, Paths, Problem, Received, Reference, Subject};
 use serde::{Deserialize, Serialize};
 
 use crate::exit::Exit;
@@ -189,7 +189,7 @@ impl Meshed {
             let first = partial.received.rounds;
             let next = (rounds - first).min(*threads as u32) as usize;
             let round = |i: usize| paths.round(first + i as u32);
-            for received in parallel::map(next, *threads, round, || steps.one()) {
+            for received in parallel::map(next, *threads, steps.counting(round)) {
                 partial.received.add(&received);
             }
             let text = serde_json::to_string(&partial).map_err(Exit::failure)?;

@@ -6,7 +6,6 @@ use std::sync::Arc;
 use clap::{Args, ValueEnum};
 use lab::{Endings, HostClock, On, Options, Plan, Preparing, Results, ShotFiles, Traces, Viewing};
 use multicomputer::quantity::{Dimension, QuantityError, parse};
-use reference::parallel;
 use traces::{Format, Sample};
 
 use crate::exit::{Exit, say};

@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use reference::parallel;
 use stability::{Verdict, cases, csv, page, svg, try_case};
 
 use crate::exit::Exit;
@@ -32,7 +31,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     };
     let steps = Steps::new("cases", paths.len());
     let try_one = |number: usize| try_case(&paths[number]);
-    let tried = parallel::map(paths.len(), parallel::host_threads(), try_one, || steps.one());
+    let tried = parallel::map(paths.len(), parallel::host_threads(), steps.counting(try_one));
     steps.end();
     let verdicts = tried.into_iter().collect::<Result<Vec<_>, _>>()?;
     let all = || arguments.case.is_empty().then(|| PathBuf::from("results/stability"));

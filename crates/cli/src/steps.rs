@@ -17,6 +17,15 @@ impl Steps {
         Steps(bar)
     }
 
+    /// `work`, each end of which is a step done.
+    pub fn counting<T>(&self, work: impl Fn(usize) -> T) -> impl Fn(usize) -> T {
+        move |number| {
+            let result = work(number);
+            self.one();
+            result
+        }
+    }
+
     /// One more is done.
     pub fn one(&self) {
         self.0.inc(1);

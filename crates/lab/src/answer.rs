@@ -5,7 +5,7 @@ use std::fs;
 use std::sync::{Arc, Mutex, OnceLock};
 
 use radiosity::{LocalEnvironment, PatchSize, Rgb, Space};
-use reference::{Dense, Patches, Reference, parallel};
+use reference::{Dense, Patches, Reference};
 use virtwall::Problem;
 
 use crate::digest::FileDigest;

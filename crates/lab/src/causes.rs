@@ -6,7 +6,7 @@ use std::sync::Arc;
 use multicomputer::{Machine, Model};
 use radiosity::Rgb;
 use radiosity::glam::DVec3;
-use reference::{Centres, parallel};
+use reference::Centres;
 use virtwall::{KeptShots, Problem};
 
 use crate::answer::Answer;

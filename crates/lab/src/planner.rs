@@ -4,7 +4,6 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use reference::parallel;
 use serde_json::Value;
 
 use crate::answer::{self, Stored};
@@ -279,7 +278,7 @@ impl Planner<'_> {
             let (experiment, number) = &asking[asked];
             self.tuned(experiment, &drafts[*number], &scenes[drafts[*number].scene].0, threads)
         };
-        let found = parallel::map(asking.len(), self.preparing.threads, tune, || ());
+        let found = parallel::map(asking.len(), self.preparing.threads, tune);
         let found = found.into_iter().collect::<Result<Vec<_>, Fault>>()?;
         for (number, asked) in asker {
             let (point, tuned) = &found[asked];
@@ -332,7 +331,7 @@ impl Planner<'_> {
             if threads > 1 {
                 scope.spawn(program);
             }
-            parallel::map(self.scenes.len(), threads, load, || ()).into_iter().collect()
+            parallel::map(self.scenes.len(), threads, load).into_iter().collect()
         })
     }
 
@@ -363,7 +362,7 @@ impl Planner<'_> {
             let (settings, digests) = (settings.clone(), scene.digests.clone());
             Ok(Prepared { settings, problem, digests, scene_bytes: scene.bytes, set_up_s })
         };
-        let problems = parallel::map(wanted.len(), self.preparing.threads, prepare, || ());
+        let problems = parallel::map(wanted.len(), self.preparing.threads, prepare);
         Ok((problems.into_iter().collect::<Result<_, Fault>>()?, problem_of))
     }
 

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use radiosity::{
     DepthBits, Hemisphere, HemisphereKind, PatchSize, VirtualWalls, VirtualWallsError,
 };
-use reference::parallel;
 use virtwall::{CutScene, Problem, ProblemError, ProblemOptions};
 
 use crate::fault::WrongField;
@@ -37,7 +36,7 @@ pub fn problem_on(
         let clock = HostClock::start();
         (cut.environment(number as u32), clock.cpu_seconds())
     };
-    let meshed = parallel::map(cut.environments() as usize, threads, mesh, || ());
+    let meshed = parallel::map(cut.environments() as usize, threads, mesh);
     let (environments, seconds): (_, Vec<f64>) = meshed.into_iter().unzip();
     let cpu_s = clock.cpu_seconds() + seconds.iter().sum::<f64>();
     let problem = cut.with(environments).with_smaller_hemispheres(smaller_hemispheres(settings)?);

@@ -6,7 +6,6 @@ use std::process::Command;
 use std::sync::Arc;
 
 use multicomputer::{CacheLevel, Caches};
-use reference::parallel;
 use serde::Serialize;
 use virtwall::{Layout, Problem, Source, Storage};
 
@@ -137,12 +136,12 @@ fn rows(
         counted(scene, environments, levels, place)
     };
     let threads = parallel::host_threads();
-    let counts = parallel::map(placements, threads, count, || ());
+    let counts = parallel::map(placements, threads, count);
     let counts = counts.into_iter().collect::<Result<Vec<Counts>, String>>()?;
     let problem = shots::problem(scene, environments)?;
     let shots = shots::of_lights(&problem, LIGHTS);
     let model = |luck: usize| modelled(&problem, &shots, levels, luck as u64);
-    let models = parallel::map(PLACEMENTS_OF_MODEL, threads, model, || ());
+    let models = parallel::map(PLACEMENTS_OF_MODEL, threads, model);
     let [references, ..] = counts[0];
     let percent = |misses: u64| rounded(100.0 * misses as f64 / references as f64);
     let row = |level: usize| {

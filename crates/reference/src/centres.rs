@@ -5,7 +5,6 @@ use radiosity::glam::DVec3;
 use radiosity::{Rgb, Scene};
 
 use crate::pair::Pair;
-use crate::parallel;
 use crate::patches::Patches;
 
 /// Form factors from points of patches.
@@ -36,7 +35,7 @@ impl Centres {
             pair.map_or(0.0, from_points)
         };
         let row = |from: usize| (0..patches.count()).map(|to| seen(from, to)).collect::<Vec<_>>();
-        let form_factors = parallel::map(patches.count(), threads, row, || ());
+        let form_factors = parallel::map(patches.count(), threads, row);
         Centres { patches, form_factors }
     }
 

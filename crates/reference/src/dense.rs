@@ -5,7 +5,6 @@ use radiosity::{Rgb, Scene};
 use crate::conjugate::{Symmetric, solve};
 use crate::cubature::{Estimate, Tolerance};
 use crate::pair::Pair;
-use crate::parallel;
 use crate::patches::Patches;
 
 /// Form factors between all patches of a scene.
@@ -42,13 +41,13 @@ impl Solution {
 
 impl Dense {
     /// Form factors whose errors add up to some `tolerance` a patch, more where most cells of the
-    /// quadrature did not suffice; `done` hears of each patch that ends.
+    /// quadrature did not suffice; `done` is called as each patch is finished.
     pub fn new(
         scene: &Scene,
         patches: Patches,
         tolerance: f64,
         threads: usize,
-        done: impl FnMut(),
+        done: impl Fn() + Sync,
     ) -> Dense {
         let all: f64 = patches.areas.iter().sum();
         let exchange = |from: usize, to: usize| {
@@ -58,8 +57,12 @@ impl Dense {
             let tolerance = Tolerance { absolute, relative: tolerance };
             pair.map_or(Estimate::default(), |pair| pair.exchange(tolerance))
         };
-        let row = |from: usize| (0..from).map(|to| exchange(from, to)).collect::<Vec<_>>();
-        let rows = parallel::map(patches.count(), threads, row, done);
+        let row = |from: usize| {
+            let row: Vec<_> = (0..from).map(|to| exchange(from, to)).collect();
+            done();
+            row
+        };
+        let rows = parallel::map(patches.count(), threads, row);
         let part = |of: fn(&Estimate) -> f64| {
             Symmetric::new(rows.iter().map(|row| row.iter().map(of).collect()).collect())
         };

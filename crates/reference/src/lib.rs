@@ -13,7 +13,6 @@ mod element;
 mod gauss;
 mod objects;
 mod pair;
-pub mod parallel;
 mod patches;
 mod paths;
 mod rays;

@@ -7,7 +7,6 @@
 
 use radiosity::{LocalEnvironment, Rgb, Space};
 
-use crate::parallel;
 use crate::patches::Patches;
 use crate::paths::{Paths, Problem};
 
@@ -93,7 +92,7 @@ impl Witnesses {
             }
             sum
         };
-        let heard = parallel::map(COUNT as usize, threads, of_one, || ());
+        let heard = parallel::map(COUNT as usize, threads, of_one);
         for (received, heard) in self.received.iter_mut().zip(heard) {
             received.iter_mut().zip(heard).for_each(|(sum, power)| *sum += power);
         }

@@ -6,7 +6,7 @@ mod common;
 
 use common::{grey, room, whole};
 use radiosity::{LocalEnvironment, Scene, Space};
-use reference::{Dense, Patches, Paths, Problem, Received, Solution, parallel};
+use reference::{Dense, Patches, Paths, Problem, Received, Solution};
 
 /// A unit cube whose ceiling emits, in patches of this size.
 fn cube(size: f64) -> (Space, LocalEnvironment, Patches) {
@@ -24,7 +24,7 @@ fn solved(cube: &(Space, LocalEnvironment, Patches), problem: Problem, paths: u3
     let (space, environment, patches) = cube;
     let paths = Paths::new(space, environment, patches, problem, paths, 7);
     let mut received = Received::new(patches.count());
-    for round in parallel::map(32, 2, |number| paths.round(number as u32), || ()) {
+    for round in parallel::map(32, 2, |number| paths.round(number as u32)) {
         received.add(&round);
     }
     paths.solution(&received)
