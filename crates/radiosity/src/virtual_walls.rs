@@ -4,12 +4,10 @@
 use glam::DVec3;
 use thiserror::Error;
 
-use crate::bounds::Bounds;
-use crate::grid::Side;
-use crate::hemisphere::{Hemisphere, unlifted};
-use crate::mask::Mask;
+use crate::geometry::Bounds;
+use crate::mesh::Side;
 use crate::scene::Rgb;
-use crate::shot::Emitter;
+use crate::shoot::{Emitter, Hemisphere, Mask, unlifted};
 
 /// How all virtual walls are meshed, and the directions over a wall patch.
 ///
@@ -105,7 +103,7 @@ impl VirtualWalls {
 
     /// A bin of a wall patch as a source of `power`, in the environment that lies within `around`; light
     /// enters it by `side`.
-    pub fn source(
+    pub fn emitter(
         &self,
         around: &Bounds,
         side: Side,
@@ -206,7 +204,7 @@ mod tests {
             let other = Side { upper: !side.upper, ..side };
             for patch in 0..walls.patches() {
                 for bin in 0..walls.bins() {
-                    let source = walls.source(&AROUND, side, [patch, bin], Rgb::ONE);
+                    let source = walls.emitter(&AROUND, side, [patch, bin], Rgb::ONE);
                     let rays = walls.rays_of(&source).unwrap();
                     // Back to where they came from: the neighbour's side in the same plane.
                     let (mut sum, all) = (0.0, Mask::all(rays.pixels()));
@@ -239,7 +237,7 @@ mod tests {
     /// Bins have equal form factors, and the directions of any hemisphere fall into all alike.
     #[test]
     fn bins_share_the_hemisphere_equally() {
-        use crate::hemisphere::HemisphereKind::Fibonacci;
+        use crate::shoot::HemisphereKind::Fibonacci;
         let walls = VirtualWalls::new([1, 1], 4, 16).unwrap();
         let hemisphere = Hemisphere::new(Fibonacci, 30_976, true).unwrap();
         let side = Side { axis: 1, upper: true };

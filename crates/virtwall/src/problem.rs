@@ -216,7 +216,7 @@ impl Problem {
         let powers = (0u32..).zip(power).filter(|(_, power)| **power != [0.0; 3]);
         let bin = |(bin, power): (u32, &[f32; 3])| {
             let power = Rgb::from_array(power.map(f64::from));
-            let source = walls.source(&around, side, [*patch, bin], power);
+            let source = walls.emitter(&around, side, [*patch, bin], power);
             let mask = Mask::all(walls.rays_of(&source).map_or(0, Hemisphere::pixels));
             Source { environment: *environment, emitter: source, mask, form_factor: 1.0 }
         };

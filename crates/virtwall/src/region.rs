@@ -163,7 +163,7 @@ impl Region {
         let Problem { space, environments, .. } = &*self.problem;
         let Holding { environment, light, .. } = &self.holdings[holding];
         let geometry = &environments[*environment as usize];
-        let mut source = light.source(space, geometry, *environment, patch);
+        let mut source = light.emitter(space, geometry, *environment, patch);
         source.power *= self.share(holding, patch);
         let parcel = |part: Part| Source {
             environment: *environment,
