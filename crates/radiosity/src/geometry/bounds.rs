@@ -2,37 +2,37 @@
 
 use glam::DVec3;
 
-/// An axis-aligned box; empty when a minimum exceeds its maximum.
+/// An axis-aligned box. It is empty when a minimum exceeds its maximum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
-    /// Least corner.
+    /// Corner with the smallest coordinates.
     pub min: DVec3,
-    /// Greatest corner.
+    /// Corner with the largest coordinates.
     pub max: DVec3,
 }
 
 impl Bounds {
-    /// The box that holds nothing.
+    /// The empty box.
     pub const EMPTY: Bounds = Bounds { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
 
-    /// The smallest box around the points.
+    /// The smallest box that contains the points.
     pub fn of(points: impl IntoIterator<Item = DVec3>) -> Bounds {
         points
             .into_iter()
             .fold(Bounds::EMPTY, |b, p| Bounds { min: b.min.min(p), max: b.max.max(p) })
     }
 
-    /// The same, larger by `by` on every side.
+    /// The same box, larger by `by` on every side.
     pub fn widened(&self, by: f64) -> Bounds {
         Bounds { min: self.min - by, max: self.max + by }
     }
 
-    /// What lies in both boxes.
+    /// The part of space inside both boxes.
     pub fn intersection(&self, other: &Bounds) -> Bounds {
         Bounds { min: self.min.max(other.min), max: self.max.min(other.max) }
     }
 
-    /// The smallest box around both.
+    /// The smallest box that contains both.
     pub fn union(&self, other: &Bounds) -> Bounds {
         Bounds { min: self.min.min(other.min), max: self.max.max(other.max) }
     }

@@ -1,8 +1,8 @@
-//! A tree of boxes over the polygons of an environment: which of them a bundle of rays can meet.
+//! A bounding volume hierarchy: finds the boxes that a bundle of rays can meet.
 //!
-//! It only saves the host time. What it leaves out no ray of the bundle hits; what the virtual
-//! processor is charged for is the walk through the grid. So single precision will do, with room for
-//! its rounding.
+//! It only saves time of the host: no ray of the bundle can hit what is left out. The simulated
+//! processor is charged for the walk through the grid instead. Single precision is enough, with a
+//! margin for its rounding.
 
 use fearless_simd::f32x16;
 use fearless_simd::prelude::*;
@@ -11,51 +11,51 @@ use super::bounds::Bounds;
 use super::pyramid::Pyramid;
 use super::split::{around, split};
 
-/// Children of a node.
-const WIDE: usize = 16;
+/// Maximum number of children of a node.
+const CHILDREN: usize = 16;
 
-/// A bounding volume hierarchy of nodes with up to sixteen children, the root first.
+/// A bounding volume hierarchy of nodes with up to sixteen children. The root is the first node.
 #[derive(Default)]
-pub(crate) struct Tree {
+pub(crate) struct BoxTree {
     nodes: Vec<Node>,
-    /// The greatest coordinate of a box, either way.
+    /// The largest absolute coordinate of all boxes.
     reach: f64,
 }
 
-/// A number for each child of a node.
+/// One number for each child of a node.
 #[derive(Clone, Copy)]
 #[repr(align(64))]
-struct Each([f32; WIDE]);
+struct PerChild([f32; CHILDREN]);
 
-/// The boxes of a node's children, coordinate by coordinate, so that all are tested at a time.
+/// The boxes of the children, stored by coordinate so that all of them are tested at once.
 struct Node {
-    low: [Each; 3],
-    high: [Each; 3],
-    /// Items, with [`ITEM`], or nodes.
-    children: [u32; WIDE],
+    low: [PerChild; 3],
+    high: [PerChild; 3],
+    /// Index of a node, or of an item with the bit [`ITEM`] set.
+    children: [u32; CHILDREN],
 }
 
 const ITEM: u32 = 1 << 31;
 
-/// Children to be visited, the next one last: the square of its distance, whose bits sort as it does,
-/// over the child.
+/// Stack of children to visit, the next one last. The upper half of an entry is the bits of the squared
+/// distance (for positive floats they sort as the numbers do), the lower half is the child.
 #[derive(Default)]
-pub(crate) struct Waiting(Vec<u64>);
+pub(crate) struct VisitStack(Vec<u64>);
 
-/// A pyramid in single precision.
-struct Narrow {
+/// A [`Pyramid`] in single precision.
+struct NarrowPyramid {
     apex: [f32; 3],
     outwards: [[f32; 3]; 4],
-    /// How far rounding can put the corner of a box on the wrong side of a plane, metres.
-    room: f32,
+    /// Largest distance, in metres, by which rounding can move a corner to the wrong side of a plane.
+    margin: f32,
 }
 
-impl Tree {
-    /// A tree over boxes; item `i` is box `i`.
-    pub(crate) fn new(boxes: &[Bounds]) -> Tree {
+impl BoxTree {
+    /// A tree over boxes. Item `i` is box `i`.
+    pub(crate) fn new(boxes: &[Bounds]) -> BoxTree {
         let reach = |b: &Bounds| b.min.abs().max(b.max.abs()).max_element();
         let reach = boxes.iter().map(reach).fold(0.0, f64::max);
-        let mut tree = Tree { nodes: Vec::new(), reach };
+        let mut tree = BoxTree { nodes: Vec::new(), reach };
         if !boxes.is_empty() {
             let mut items: Vec<u32> = (0..boxes.len() as u32).collect();
             tree.build(boxes, &mut items);
@@ -63,13 +63,16 @@ impl Tree {
         tree
     }
 
-    /// A node over some items; its place.
+    /// Adds a node over some items and returns its index.
     fn build(&mut self, boxes: &[Bounds], items: &mut [u32]) -> u32 {
         let place = self.nodes.len();
-        // The box of no child is met by no pyramid.
-        let (far, near) = ([Each([f32::INFINITY; WIDE]); 3], [Each([f32::NEG_INFINITY; WIDE]); 3]);
-        self.nodes.push(Node { low: far, high: near, children: [0; WIDE] });
-        for (i, group) in split(boxes, items, WIDE).into_iter().enumerate() {
+        // Unused children have an empty box, which no pyramid meets.
+        let (far, near) = (
+            [PerChild([f32::INFINITY; CHILDREN]); 3],
+            [PerChild([f32::NEG_INFINITY; CHILDREN]); 3],
+        );
+        self.nodes.push(Node { low: far, high: near, children: [0; CHILDREN] });
+        for (i, group) in split(boxes, items, CHILDREN).into_iter().enumerate() {
             let around = around(boxes, group);
             for axis in 0..3 {
                 self.nodes[place].low[axis].0[i] = (around.min[axis] as f32).next_down();
@@ -83,25 +86,25 @@ impl Tree {
         place as u32
     }
 
-    /// Visit the items whose boxes a pyramid meets, nearer boxes first. A visit returns the distance
-    /// from the apex beyond which no more are wanted, or `None` to go no further; whether all were
-    /// visited. `waiting` is room to work in, kept by the caller so that no visit asks for memory.
+    /// Visits the items whose boxes a pyramid meets, nearer boxes first. `visit` returns the distance
+    /// from the apex beyond which further items are not needed, or `None` to stop. Returns false if it
+    /// was stopped. `stack` is working memory, owned by the caller to avoid allocations.
     #[inline(always)]
     pub(crate) fn visit<S: Simd>(
         &self,
         simd: S,
         pyramid: &Pyramid,
-        Waiting(waiting): &mut Waiting,
+        VisitStack(stack): &mut VisitStack,
         mut visit: impl FnMut(u32) -> Option<f64>,
     ) -> bool {
         if self.nodes.is_empty() {
             return true;
         }
-        let pyramid = Narrow::new(pyramid, self.reach);
+        let pyramid = NarrowPyramid::new(pyramid, self.reach);
         let mut limit = f32::INFINITY;
-        waiting.clear();
-        waiting.push(0);
-        while let Some(next) = waiting.pop() {
+        stack.clear();
+        stack.push(0);
+        while let Some(next) = stack.pop() {
             let child = next as u32;
             if f32::from_bits((next >> 32) as u32) > limit {
                 continue;
@@ -115,52 +118,57 @@ impl Tree {
             }
             let node = &self.nodes[child as usize];
             let (mut met, distances) = node.meets(simd, &pyramid, limit);
-            let first = waiting.len();
+            let first = stack.len();
             while met != 0 {
-                let i = met.trailing_zeros() as usize % WIDE;
+                let i = met.trailing_zeros() as usize % CHILDREN;
                 met &= met - 1;
                 let child = u64::from(distances[i].to_bits()) << 32 | u64::from(node.children[i]);
-                // Nearest last, to be taken first.
-                waiting.push(child);
-                let mut place = waiting.len() - 1;
-                while place > first && waiting[place - 1] < child {
-                    waiting[place] = waiting[place - 1];
+                // Sorted by distance, the nearest last: it is taken first.
+                stack.push(child);
+                let mut place = stack.len() - 1;
+                while place > first && stack[place - 1] < child {
+                    stack[place] = stack[place - 1];
                     place -= 1;
                 }
-                waiting[place] = child;
+                stack[place] = child;
             }
         }
         true
     }
 }
 
-impl Narrow {
+impl NarrowPyramid {
     /// A coordinate, a difference of two and a product with a component of a unit vector are each
-    /// rounded by 2⁻²⁴ of at most twice the greatest coordinate: some 2 × 10⁻⁶ of it for all three
-    /// axes.
-    fn new(pyramid: &Pyramid, reach: f64) -> Narrow {
+    /// rounded by at most 2⁻²⁴ of twice the largest coordinate. Over three axes the sum is about
+    /// 2 × 10⁻⁶ of that coordinate; twice as much is allowed.
+    fn new(pyramid: &Pyramid, reach: f64) -> NarrowPyramid {
         let reach = pyramid.apex.abs().max_element().max(reach);
-        Narrow {
+        NarrowPyramid {
             apex: pyramid.apex.as_vec3().to_array(),
             outwards: pyramid.outwards.map(|plane| plane.as_vec3().to_array()),
-            room: (reach * 4e-6) as f32,
+            margin: (reach * 4e-6) as f32,
         }
     }
 
-    /// The square of a distance, with room.
+    /// The square of a distance, plus the margin.
     fn limit(&self, distance: f64) -> f32 {
-        let limit = distance as f32 * (1.0 + 1e-5) + self.room;
+        let limit = distance as f32 * (1.0 + 1e-5) + self.margin;
         limit * limit
     }
 }
 
 impl Node {
-    /// Children whose boxes meet a pyramid no farther away than the root of `limit`, a bit each, and
-    /// the squares of the distances of all boxes from the apex.
+    /// The children whose boxes meet a pyramid, not farther away than the square root of `limit`, one
+    /// bit each; and the squared distances of all boxes from the apex.
     #[inline(always)]
-    fn meets<S: Simd>(&self, simd: S, pyramid: &Narrow, limit: f32) -> (u64, [f32; WIDE]) {
+    fn meets<S: Simd>(
+        &self,
+        simd: S,
+        pyramid: &NarrowPyramid,
+        limit: f32,
+    ) -> (u64, [f32; CHILDREN]) {
         let mut square = f32x16::splat(simd, 0.0);
-        // How far inside each of the four planes the corner lies that is farthest so.
+        // For each plane, the signed distance of the innermost corner of each box.
         let mut least = [square; 4];
         for axis in 0..3 {
             let apex = pyramid.apex[axis];
@@ -174,7 +182,7 @@ impl Node {
         }
         let mut met = square.simd_le(limit);
         for least in least {
-            met &= least.simd_le(pyramid.room);
+            met &= least.simd_le(pyramid.margin);
         }
         (met.to_bitmask(), square.to_array())
     }
@@ -187,16 +195,16 @@ mod tests {
 
     use super::*;
 
-    /// Every box that holds a point of a ray of the pyramid is visited, unless the limit is nearer.
+    /// Every box that contains a point of a ray, nearer than the limit, is visited.
     #[test]
-    fn nothing_that_a_ray_meets_is_left_out() {
+    fn every_box_that_a_ray_meets_is_visited() {
         let boxes: Vec<Bounds> = (0..500)
             .map(|i| {
                 let at = DVec3::new(f64::from(i % 10), f64::from(i / 10 % 10), f64::from(i / 100));
                 Bounds { min: at, max: at + 0.7 }
             })
             .collect();
-        let tree = Tree::new(&boxes);
+        let tree = BoxTree::new(&boxes);
         let directions: Vec<DVec3> =
             (0..8).map(|i| DVec3::new(1.0, 0.5 + 0.02 * f64::from(i), 0.3).normalize()).collect();
         let frame = [DVec3::X, DVec3::Y, DVec3::Z];
@@ -205,12 +213,12 @@ mod tests {
         for limit in [2.0, 5.0, 100.0] {
             let mut visited = vec![false; boxes.len()];
             dispatch!(Level::new(), simd => {
-                tree.visit(simd, &pyramid, &mut Waiting::default(), |item| {
+                tree.visit(simd, &pyramid, &mut VisitStack::default(), |item| {
                     visited[item as usize] = true;
                     Some(limit)
                 })
             });
-            assert!(visited.iter().filter(|&&v| v).count() < 100, "culls nothing");
+            assert!(visited.iter().filter(|&&v| v).count() < 100, "almost everything is visited");
             for direction in &directions {
                 for step in 0..(limit.min(15.0) * 100.0) as u32 {
                     let point = apex + *direction * (f64::from(step) / 100.0);

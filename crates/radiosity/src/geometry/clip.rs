@@ -1,11 +1,11 @@
-//! Clipping convex polygons by planes.
+//! Clipping of convex polygons by planes (Sutherland and Hodgman 1974).
 
 use glam::DVec3;
 
 use super::bounds::Bounds;
 
-/// The part of a convex polygon where `distance` is at least zero. Points on the plane stay; new
-/// points on it are placed by `place`, which may put them exactly onto the plane.
+/// The part of a convex polygon where `distance` is at least zero. Points on the plane are kept.
+/// `place` corrects each new point, for example to move it exactly onto the plane.
 fn clip(
     points: &[DVec3],
     distance: impl Fn(DVec3) -> f64,
@@ -25,7 +25,7 @@ fn clip(
     kept
 }
 
-/// The part of a convex polygon inside a closed box; new corners lie exactly on the box's planes.
+/// The part of a convex polygon inside a closed box. New corners are exactly on the planes of the box.
 pub(crate) fn clip_to_box(points: &[DVec3], bounds: &Bounds) -> Vec<DVec3> {
     let mut points = points.to_vec();
     for axis in 0..3 {
@@ -52,12 +52,12 @@ pub(crate) fn clip_to_slab(points: &[DVec3], direction: DVec3, low: f64, high: f
     clip(&above, |p| high - p.dot(direction), |p| p)
 }
 
-/// The part of a convex polygon where `height`, which is linear, is not negative.
+/// The part of a convex polygon where the linear function `height` is not negative.
 pub(crate) fn clip_to_half(points: &[DVec3], height: impl Fn(DVec3) -> f64) -> Vec<DVec3> {
     clip(points, height, |p| p)
 }
 
-/// Area (m²) and centroid of a convex planar polygon; for one without area the mean of its points.
+/// Area (m²) and centroid of a convex planar polygon. Without an area, the mean of its points.
 pub(crate) fn area_and_centroid(points: &[DVec3]) -> (f64, DVec3) {
     let mean = points.iter().sum::<DVec3>() / points.len().max(1) as f64;
     let Some((&apex, rest)) = points.split_first() else { return (0.0, mean) };

@@ -15,7 +15,7 @@ mod ray;
 mod split;
 
 pub use bounds::Bounds;
-pub(crate) use box_tree::{Tree, Waiting};
+pub(crate) use box_tree::{BoxTree, VisitStack};
 pub(crate) use clip::{area_and_centroid, clip_to_box, clip_to_half, clip_to_slab};
 pub(crate) use pyramid::Pyramid;
 pub use ray::Ray;

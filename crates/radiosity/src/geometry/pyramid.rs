@@ -1,17 +1,17 @@
-//! The space that a bundle of rays from one source can reach.
+//! A pyramid around a bundle of rays with a common origin.
 
 use glam::DVec3;
 
-/// Four planes through the source that hold a bundle's rays between them.
+/// Four planes through the origin of the rays. All rays run between them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pyramid {
     pub(crate) apex: DVec3,
-    /// Unit vectors towards the outside; zero where a bundle is too wide for a plane.
+    /// Outward unit normals of the planes. All zero if the bundle is too wide for a pyramid.
     pub(crate) outwards: [DVec3; 4],
 }
 
 impl Pyramid {
-    /// The pyramid around unit directions, its apex at the origin.
+    /// The pyramid around unit directions, with its apex at the origin.
     pub(crate) fn around(directions: &[DVec3]) -> Pyramid {
         let axis = directions.iter().sum::<DVec3>().normalize_or_zero();
         let u = axis.any_orthonormal_vector();
@@ -35,7 +35,7 @@ impl Pyramid {
         Pyramid { apex: DVec3::ZERO, outwards }
     }
 
-    /// The same over a source, turned into its frame.
+    /// The same pyramid, moved to `apex` and rotated into a frame.
     pub(crate) fn over(&self, apex: DVec3, [tangent, bitangent, normal]: [DVec3; 3]) -> Pyramid {
         let turn = |d: DVec3| tangent * d.x + bitangent * d.y + normal * d.z;
         Pyramid { apex, outwards: self.outwards.map(turn) }

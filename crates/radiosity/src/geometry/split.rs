@@ -1,14 +1,14 @@
-//! How boxes are best split into groups that are tested on their own.
+//! Splits boxes into groups for a bounding volume hierarchy, by the surface area heuristic.
 
 use glam::DVec3;
 
 use super::bounds::Bounds;
 
-/// Places between which a group can be split along an axis.
+/// Bins along an axis. A group can be split between two of them.
 const BINS: usize = 16;
 
-/// Split items, each a box, into at most `most` groups: halve the group with the greatest surface until
-/// there are enough. `items` is not empty, and no group is.
+/// Splits items, one box each, into at most `most` groups: the group with the largest surface is
+/// halved until there are enough. `items` must not be empty, and no group is.
 pub(crate) fn split<'a>(boxes: &[Bounds], items: &'a mut [u32], most: usize) -> Vec<&'a mut [u32]> {
     let mut groups = vec![(surface(&around(boxes, items)), items)];
     while groups.len() < most {
@@ -25,15 +25,15 @@ pub(crate) fn split<'a>(boxes: &[Bounds], items: &'a mut [u32], most: usize) -> 
     groups.into_iter().map(|(_, group)| group).collect()
 }
 
-/// Half the surface of a box: how likely a ray meets it.
+/// Half the surface of a box. The probability that a ray meets the box is proportional to it.
 fn surface(of: &Bounds) -> f64 {
     let DVec3 { x, y, z } = of.size();
     x * y + y * z + z * x
 }
 
-/// Halve items where the sum of surface times items of both halves is least (the surface area
-/// heuristic, MacDonald and Booth 1990), among places evenly spaced along each axis; in the middle
-/// where no place divides them.
+/// Splits items in two where the sum of surface × number of items of both parts is smallest (the
+/// surface area heuristic, MacDonald and Booth 1990). Only the boundaries of evenly spaced bins are
+/// tried. If none of them separates the items, the list is cut in the middle.
 fn halve<'a>(boxes: &[Bounds], items: &'a mut [u32]) -> (&'a mut [u32], &'a mut [u32]) {
     let middle = |i: u32| boxes[i as usize].min + boxes[i as usize].max;
     let middles = Bounds::of(items.iter().map(|&i| middle(i)));
@@ -59,7 +59,7 @@ fn halve<'a>(boxes: &[Bounds], items: &'a mut [u32]) -> (&'a mut [u32], &'a mut 
     items.split_at_mut(half)
 }
 
-/// What it costs to split after each bin but the last; infinite where a half would be empty.
+/// Costs of splitting after each bin except the last. Infinite where a part would be empty.
 fn costs(boxes: &[Bounds], items: &[u32], bin: impl Fn(u32) -> usize) -> [f64; BINS - 1] {
     let mut bins = [(0, Bounds::EMPTY); BINS];
     for &item in items {
@@ -82,7 +82,7 @@ fn costs(boxes: &[Bounds], items: &[u32], bin: impl Fn(u32) -> usize) -> [f64; B
     costs
 }
 
-/// The box around some of the boxes.
+/// The box around the boxes of some items.
 pub(crate) fn around(boxes: &[Bounds], items: &[u32]) -> Bounds {
     items.iter().fold(Bounds::EMPTY, |around, &i| around.union(&boxes[i as usize]))
 }

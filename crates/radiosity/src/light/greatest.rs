@@ -1,16 +1,16 @@
-//! The greatest of many values that change a few at a time.
+//! A tournament tree: the greatest of many values of which a few change at a time.
 
-/// Values, and above them the greater of each pair, of each pair of pairs, and so on: a value is
-/// changed in logarithmic time and the greatest one found in the same.
+/// A tournament tree: above the values is the greater of each pair, of each pair of pairs, and so on. Changing a
+/// value and finding the greatest one take logarithmic time.
 #[derive(Clone, Debug)]
 pub struct Greatest {
-    /// The greatest of all at 1, the values from `leaves` on; the pair under `i` is at 2 i, 2 i + 1.
+    /// The greatest value at 1, the values from `leaves` on. The children of `i` are at 2 i and 2 i + 1.
     tree: Vec<f64>,
     leaves: usize,
 }
 
 impl Greatest {
-    /// These values, none negative.
+    /// A tree over values, none of them negative.
     pub fn new(values: impl ExactSizeIterator<Item = f64>) -> Greatest {
         let leaves = values.len().next_power_of_two();
         let mut tree = vec![0.0; 2 * leaves];
@@ -23,7 +23,7 @@ impl Greatest {
         Greatest { tree, leaves }
     }
 
-    /// Change a value.
+    /// Changes a value.
     pub fn set(&mut self, place: u32, value: f64) {
         let mut i = self.leaves + place as usize;
         self.tree[i] = value;
@@ -37,7 +37,7 @@ impl Greatest {
         }
     }
 
-    /// The greatest value and its place, the first of equal ones; `None` when no value is positive.
+    /// The greatest value and its index, the first of equal ones. `None` if no value is positive.
     pub fn best(&self) -> Option<(f64, u32)> {
         let greatest = self.tree[1];
         let mut i = 1;
@@ -54,7 +54,7 @@ mod tests {
 
     use super::*;
 
-    /// What a search through all values finds.
+    /// The same by a search through all values.
     fn searched(values: &[f64]) -> Option<(f64, u32)> {
         let positive = values.iter().copied().zip(0..).filter(|&(value, _)| value > 0.0);
         positive.reduce(|best, other| if other.0 > best.0 { other } else { best })
@@ -62,7 +62,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn it_finds_what_a_search_finds(
+        fn the_tree_finds_the_same_as_a_search(
             start in proptest::collection::vec(0u8..4, 0..40),
             changes in proptest::collection::vec((0usize..40, 0u8..4), 0..60),
         ) {

@@ -1,17 +1,17 @@
-//! The light in one environment: what its patches hold and what became of the rest.
+//! The light in one environment: radiosity and unshot power of its patches, and its energy balance.
 
-use crate::mesh::{LocalEnvironment, Space};
+use crate::mesh::{LocalEnvironment, Patch, Space};
 use crate::scene::Rgb;
 use crate::shoot::{Emitter, Shot};
 
-/// Radiosity and unshot power of the patches of one environment, and where energy went.
+/// Radiosity and unshot power of the patches of one environment, and where the rest of the energy went.
 #[derive(Clone, Debug)]
 pub struct Light {
-    /// Power that each patch has sent or will send out, W: emitted and reflected.
+    /// Emitted and reflected power of each patch, shot or not, W: radiosity × area.
     pub leaving: Vec<Rgb>,
-    /// The part of it that was not shot yet, W: the delta-radiosity times the area.
+    /// The part of it that was not shot yet, W: delta-radiosity × area.
     pub unshot: Vec<Rgb>,
-    /// Power absorbed by patches and by backs of polygons, W.
+    /// Power absorbed by patches and by the backs of polygons, W.
     pub absorbed: Rgb,
     /// Power that left the scene from here, W.
     pub escaped: Rgb,
@@ -21,24 +21,22 @@ pub struct Light {
 }
 
 impl Light {
-    /// Before the first shot: everything emitted is unshot.
+    /// The light before the first shot: all emitted power is unshot.
     pub fn new(space: &Space, environment: &LocalEnvironment) -> Light {
         let patches = 0..environment.patches.len() as u32;
         let emitted: Vec<Rgb> = patches.map(|p| environment.emitted_power(space, p)).collect();
-        let reflectance = environment.patches.iter().map(|patch| {
-            space.scene.material(&space.scene.polygons[patch.polygon as usize]).reflectance
-        });
+        let reflectance = |patch: &Patch| space.scene.material_of(patch.polygon).reflectance;
         Light {
             leaving: emitted.clone(),
             unshot: emitted,
             absorbed: Rgb::ZERO,
             escaped: Rgb::ZERO,
             medium: Rgb::ZERO,
-            reflectance: reflectance.collect(),
+            reflectance: environment.patches.iter().map(reflectance).collect(),
         }
     }
 
-    /// Take the unshot power of a patch, to be shot as a source.
+    /// Takes the unshot power of a patch, as an emitter to shoot.
     pub fn take_emitter(
         &mut self,
         space: &Space,
@@ -46,12 +44,12 @@ impl Light {
         number: u32,
         patch: u32,
     ) -> Emitter {
-        let source = self.emitter(space, environment, number, patch);
+        let emitter = self.emitter(space, environment, number, patch);
         self.unshot[patch as usize] = Rgb::ZERO;
-        source
+        emitter
     }
 
-    /// The source that a patch of environment `number` would be now.
+    /// A patch of environment `number` as an emitter of its current unshot power.
     pub fn emitter(
         &self,
         space: &Space,
@@ -72,22 +70,23 @@ impl Light {
         }
     }
 
-    /// Update the patches with what a shot brought them (§3.3: one iteration of a progressive
-    /// radiosity algorithm). Returns the power that they reflect of it, W.
-    pub fn receive(&mut self, source: &Emitter, shot: &Shot) -> Rgb {
+    /// Updates the patches with the light of a shot, and returns the power that they reflect of it, W.
+    ///
+    /// Paper: §3.3, one iteration of a progressive radiosity algorithm.
+    pub fn receive(&mut self, emitter: &Emitter, shot: &Shot) -> Rgb {
         let mut all_reflected = Rgb::ZERO;
         for &(patch, form_factor) in &shot.hits {
             let patch = patch as usize;
-            let arriving = source.power * form_factor;
+            let arriving = emitter.power * form_factor;
             let reflected = arriving * self.reflectance[patch];
             self.leaving[patch] += reflected;
             self.unshot[patch] += reflected;
             self.absorbed += arriving - reflected;
             all_reflected += reflected;
         }
-        self.absorbed += source.power * shot.backs;
-        self.escaped += source.power * shot.escaped;
-        self.medium += source.power * shot.medium;
+        self.absorbed += emitter.power * shot.backs;
+        self.escaped += emitter.power * shot.escaped;
+        self.medium += emitter.power * shot.medium;
         all_reflected
     }
 
@@ -96,7 +95,7 @@ impl Light {
         self.leaving[patch as usize] / environment.radiosity_area(patch)
     }
 
-    /// Sum of unshot power, W.
+    /// Total unshot power, W.
     pub fn unshot_power(&self) -> Rgb {
         self.unshot.iter().sum()
     }

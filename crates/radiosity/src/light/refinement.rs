@@ -1,7 +1,7 @@
-//! Where a mesh is to be finer: where radiosity changes, and nowhere else.
+//! Mesh refinement: smaller patches where radiosity changes.
 //!
-//! A pilot finds much of the light on a mesh of half the patches' size, with few rays. By how much radiosity
-//! changes from patch to patch there says what a patch of any size gets wrong by having one radiosity.
+//! A pilot solution with few rays, on patches of half the size, finds most of the light. The change of its
+//! radiosity from patch to patch gives the error of constant radiosity on patches of any size.
 
 use glam::DVec3;
 
@@ -11,42 +11,42 @@ use crate::mesh::{Block, LocalEnvironment, Patch, PatchSize, Piece, Space};
 use crate::scene::{Rgb, Scene};
 use crate::shoot::{Hemisphere, HemisphereError, HemisphereKind};
 
-/// What is wanted of a mesh.
+/// The accuracy wanted of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wanted {
-    /// What constant radiosities on its patches may be off, relative to what is reflected, as a root mean
-    /// square by area.
+    /// Allowed error of constant radiosities on patches: root mean square by area, relative to the reflected
+    /// radiosity.
     pub relative_l2: f64,
-    /// How often the edges of a patch are halved for that, at most.
+    /// Largest number of times that the edges of a patch are halved.
     pub most_halvings: u32,
 }
 
-/// A pilot's mesh, and how often patches as large as its are to be halved.
+/// The mesh of a pilot solution, and how often a patch at each place must be halved.
 pub struct Refinement {
     pilot: LocalEnvironment,
     depths: Vec<u32>,
-    /// Shots of the pilot, of [`Refinement::RAYS`] each.
+    /// Number of shots of the pilot solution, of [`Refinement::RAYS`] rays each.
     pub shots: u64,
 }
 
 impl Refinement {
-    /// Rays of a pilot's source.
+    /// Number of rays of a shot of the pilot solution.
     pub const RAYS: u32 = 1_024;
 
-    /// What of the emitted power a pilot leaves unshot: it is spread evenly, or nearly so.
+    /// Fraction of the emitted power that the pilot leaves unshot. It would be spread almost evenly.
     const UNSHOT: f64 = 0.05;
 
-    /// A pilot shoots no more often.
+    /// Largest number of shots of the pilot.
     const MOST_SHOTS: u64 = 5_000;
 
-    /// Finds out where patches of a size are to be halved.
+    /// Finds where patches of a size must be halved.
     ///
-    /// Choice C44: an edge of a patch over which radiosity changes by d leaves d²/12 of mean square error,
-    /// and a quarter of it after halving. Patches are halved, where that spares most a patch first, until
-    /// the errors add up to no more than is wanted.
+    /// Choice C44: if radiosity changes by d along an edge of a patch, the mean square error is d²/12, and a
+    /// quarter of it after halving. Patches are halved, those with the largest gain per new patch first,
+    /// until the errors add up to at most the wanted one.
     ///
     /// # Errors
-    /// None is known: hemispheres of so many pixels exist.
+    /// None in practice: the hemisphere of the pilot is possible.
     pub fn new(
         space: &Space,
         size: PatchSize,
@@ -63,7 +63,7 @@ impl Refinement {
             (radiosity - emission(&space.scene, patch.polygon)).length_squared() * patch.area
         });
         let budget = wanted.relative_l2 * wanted.relative_l2 * reflected.sum::<f64>();
-        // How finely lamps are meshed decides how many shots there are: that is left alone.
+        // The patches of lamps determine the number of shots, so they are not refined.
         let lamp = |patch: &Patch| emission(&space.scene, patch.polygon) != Rgb::ZERO;
         let errors = errors(&pilot, &radiosity).into_iter().zip(&pilot.patches);
         let errors: Vec<f64> =
@@ -72,14 +72,14 @@ impl Refinement {
         Ok(Refinement { pilot, depths, shots })
     }
 
-    /// Mesh a block of cells with patches of the size that it was made for, and smaller ones.
+    /// Meshes a block of cells with patches of the given size, and smaller ones where needed.
     pub fn mesh(&self, space: &Space, block: Block, size: PatchSize) -> LocalEnvironment {
         let depth = |polygon, slot: &[DVec3], edges| self.depth(polygon, slot, edges);
         LocalEnvironment::meshed(space, block, size, Some(&depth))
     }
 
-    /// How often a slot of a polygon, with edges of such lengths, is to be halved: as often as a patch
-    /// needs anywhere in it.
+    /// How often a slot of a polygon with given edge lengths must be halved: the largest number needed
+    /// anywhere in it.
     fn depth(&self, polygon: u32, slot: &[DVec3], edges: [f64; 2]) -> u32 {
         let Some(piece) = self.pilot.piece(polygon) else { return 0 };
         let Piece { u, v, .. } = self.pilot.pieces[piece as usize];
@@ -87,7 +87,7 @@ impl Refinement {
         let within = slot.iter().map(|&corner| (corner + centre) / 2.0).filter(|_| area > 0.0);
         let depth = |point: DVec3| {
             let patch = self.pilot.patch_of(piece, point)?;
-            // Twice the pilot's edges, halved so often, are wanted here.
+            // Twice the edges of the pilot's patch, halved `depths[patch]` times.
             let wanted = [u, v]
                 .map(|along| 2.0 / along.length() / f64::from(1u32 << self.depths[patch as usize]));
             let halved = |depth: u32, edge: f64| edge / f64::from(1u32 << depth);
@@ -100,17 +100,17 @@ impl Refinement {
     }
 }
 
-/// Patches are halved less often than this.
+/// The number of halvings stays below this.
 const MOST_HALVINGS: u32 = 8;
 
 fn emission(scene: &Scene, polygon: u32) -> Rgb {
-    scene.material(&scene.polygons[polygon as usize]).emission
+    scene.material_of(polygon).emission
 }
 
-/// What each patch of a pilot would add to the square of the error, were it as large as those of the mesh
-/// that is to be refined: twice as long and as wide.
+/// Squared error of each patch of the pilot, if it were as large as those of the mesh to refine: twice as long
+/// and twice as wide.
 fn errors(pilot: &LocalEnvironment, radiosity: &[Rgb]) -> Vec<f64> {
-    // Sums and numbers of squares of the change towards neighbours along u and along v.
+    // Sum and number of squared changes towards the neighbours along u and along v.
     let mut changes = vec![[(0.0, 0u32); 2]; pilot.patches.len()];
     for piece in pilot.pieces.iter().filter(|piece| !piece.is_back()) {
         let patch = |i: u32, j: u32| pilot.slots[(piece.first_slot + j * piece.nu + i) as usize];
@@ -135,23 +135,23 @@ fn errors(pilot: &LocalEnvironment, radiosity: &[Rgb]) -> Vec<f64> {
     areas.zip(changes).map(|(area, [u, v])| area * 4.0 * (mean(u) + mean(v)) / 12.0).collect()
 }
 
-/// How often each patch is to be halved for the errors to add up to a budget, or as often as may be: what
-/// a halving spares for each patch that it adds falls to a sixteenth from one to the next.
+/// How often each patch must be halved so that the sum of the errors is within a budget, if possible. From one
+/// halving of a patch to the next, the gain per new patch falls to a sixteenth.
 fn depths(errors: &[f64], budget: f64, most: u32) -> Vec<u32> {
     let most = most.min(MOST_HALVINGS - 1);
     let left = |error: f64, depth: u32| error / f64::from(4u32.pow(depth));
     let mut depths = vec![0; errors.len()];
-    let mut worth = errors.iter().copied().fold(0.0, f64::max);
+    let mut threshold = errors.iter().copied().fold(0.0, f64::max);
     let sum =
         |depths: &[u32]| -> f64 { errors.iter().zip(depths).map(|(&e, &d)| left(e, d)).sum() };
-    // Beyond so many halvings of the worth of halving there is nothing left to spare.
+    // After this many steps there is nothing more to gain.
     for _ in 0..64 {
         if sum(&depths) <= budget {
             break;
         }
-        worth /= 2.0;
+        threshold /= 2.0;
         for (depth, &error) in depths.iter_mut().zip(errors) {
-            while *depth < most && left(left(error, *depth), *depth) > worth {
+            while *depth < most && left(left(error, *depth), *depth) > threshold {
                 *depth += 1;
             }
         }

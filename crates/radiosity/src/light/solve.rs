@@ -1,14 +1,14 @@
-//! Progressive radiosity in one environment: the traditional approach (§5.2), and a reference.
+//! Progressive radiosity in one environment: the traditional approach of §5.2, without virtual interfaces.
 
 use super::greatest::Greatest;
 use super::light::Light;
 use crate::mesh::{LocalEnvironment, Space};
 use crate::shoot::{Hemisphere, Mask, shoot};
 
-/// Shoot the patch with most unshot power again and again until less than `stop_below` of the
-/// emitted power is left unshot, or `most_shots` are done. Returns the light and the shots it took.
+/// Repeatedly shoots the patch with the most unshot power, until not more than the fraction `stop_below` of
+/// the emitted power is unshot or `most_shots` are done. Returns the light and the number of shots.
 ///
-/// `environment` must be the whole grid: what leaves it is lost.
+/// `environment` must be the whole grid: light that leaves it is lost.
 pub fn solve(
     space: &Space,
     environment: &LocalEnvironment,
@@ -19,7 +19,7 @@ pub fn solve(
     solve_watched(space, environment, hemisphere, stop_below, most_shots, |_| ())
 }
 
-/// The same; `watch` is told, shot by shot, what part of the emitted power is left.
+/// Like [`solve`], but calls `watch` after each shot with the fraction of the emitted power that is unshot.
 pub fn solve_watched(
     space: &Space,
     environment: &LocalEnvironment,
@@ -36,9 +36,9 @@ pub fn solve_watched(
     let mut shots = 0;
     while shots < most_shots && left > emitted * stop_below {
         let Some((power, patch)) = greatest.best() else { break };
-        let source = light.take_emitter(space, environment, 0, patch);
-        let shot = shoot(space, environment, hemisphere, &source, &mask);
-        left += light.receive(&source, &shot).element_sum() - power;
+        let emitter = light.take_emitter(space, environment, 0, patch);
+        let shot = shoot(space, environment, hemisphere, &emitter, &mask);
+        left += light.receive(&emitter, &shot).element_sum() - power;
         greatest.set(patch, light.unshot[patch as usize].element_sum());
         for &(hit, _) in &shot.hits {
             greatest.set(hit, light.unshot[hit as usize].element_sum());

@@ -1,23 +1,23 @@
 //! Optical depth as an integer for each pixel of a mask.
 
-/// How many bits a pixel of a mask has to hold the optical depth of media along its ray.
+/// How many bits of a mask store the optical depth along the ray of a pixel.
 ///
 /// Choice C42: "Instead of using boolean values, an integer value could represent the percentage of
-/// absorption along a given direction" (§3.2). Here it counts steps of optical depth: they add up from
-/// environment to environment and are as fine in thick media, where percentages would have none left. The
-/// greatest integer is a pixel that is false. Depth is rounded to the nearest step each time that a mask is
-/// handed on, which changes what is left of the light by a factor of exp(±step/2) at most; light dimmed
-/// beyond the last step is absorbed.
+/// absorption along a given direction" (§3.2). Here the integer counts steps of optical depth: they add
+/// up from environment to environment, and stay equally fine in thick media. The largest integer marks a
+/// pixel that is false. The depth is rounded to the nearest step each time a mask is sent on, which
+/// changes the remaining light by a factor of at most exp(±step/2). Beyond the last step, all light
+/// counts as absorbed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DepthBits {
-    /// Steps of 1/32: 1.6 % of the light each time, down to exp(-7.9) or 0.036 % of it.
+    /// Steps of 1/32: an error of up to 1.6 % of the light per rounding, down to exp(-7.9) = 0.036 % of it.
     Eight,
-    /// Steps of 1/4096: 0.012 % of the light each time, down to exp(-16) or 0.11 millionths of it.
+    /// Steps of 1/4096: up to 0.012 % of the light per rounding, down to exp(-16) = 0.000011 % of it.
     Sixteen,
 }
 
 impl DepthBits {
-    /// Optical depth that a step stands for.
+    /// Optical depth of one step.
     pub fn step(self) -> f64 {
         match self {
             DepthBits::Eight => 1.0 / 32.0,
@@ -25,12 +25,12 @@ impl DepthBits {
         }
     }
 
-    /// So many bits, if masks may have them.
+    /// The variant with a number of bits, if there is one.
     pub fn of(bits: u32) -> Option<DepthBits> {
         [DepthBits::Eight, DepthBits::Sixteen].into_iter().find(|depth| depth.bits() == bits)
     }
 
-    /// Bits of a pixel.
+    /// Bits per pixel.
     pub fn bits(self) -> u32 {
         match self {
             DepthBits::Eight => 8,
@@ -38,7 +38,7 @@ impl DepthBits {
         }
     }
 
-    /// The integer of a pixel that is false.
+    /// The integer that marks a false pixel.
     pub fn hidden(self) -> u16 {
         match self {
             DepthBits::Eight => u8::MAX.into(),
@@ -46,13 +46,13 @@ impl DepthBits {
         }
     }
 
-    /// The nearest number of steps; none where that is more than there are.
+    /// The nearest number of steps, or `None` beyond the last step.
     pub(crate) fn steps(self, depth: f64) -> Option<u16> {
         let steps = (depth / self.step()).round();
         (steps < f64::from(self.hidden())).then_some(steps as u16)
     }
 
-    /// What is left of light after so many steps.
+    /// Fraction of the light that is left after a number of steps.
     pub(crate) fn transmittance(self, steps: u16) -> f64 {
         libm::exp(-f64::from(steps) * self.step())
     }

@@ -1,19 +1,19 @@
-//! Participating media that absorb light on its way (§3.2): how much of a ray's light is left.
+//! A homogeneous medium that absorbs light, and the optical depth along a ray.
 
 use crate::geometry::{Bounds, Ray};
 
-/// A homogeneous medium that fills a box, absorbs and does not scatter. Where several overlap, their
-/// absorption adds up.
+/// A homogeneous medium that fills a box. It absorbs all colours alike and does not scatter. Where
+/// several media overlap, their absorption coefficients add up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Medium {
-    /// Where it is, in coordinates local to its scene's origin.
+    /// Its box, in coordinates local to the origin of the scene.
     pub bounds: Bounds,
-    /// The coefficient σ of Beer and Lambert's law, 1/m: of a ray's light exp(-σd) is left after d metres.
+    /// Absorption coefficient σ, 1/m (Beer–Lambert law): after d metres exp(-σd) of the light is left.
     pub absorption: f64,
 }
 
-/// Optical depth of all media along a ray, as far as `limit` metres and only inside `within`. Of a space
-/// that boxes part among them, the depths inside each add up to that of the whole.
+/// Optical depth of all media along a ray, up to `limit` metres and only inside the box `within`. If
+/// boxes partition a space, the depths inside them add up to the depth in the whole space.
 pub fn optical_depth(media: &[Medium], ray: &Ray, within: &Bounds, limit: f64) -> f64 {
     let [start, end] = passage(ray, within, true);
     let (start, end) = (start.max(0.0), end.min(limit));
@@ -24,8 +24,8 @@ pub fn optical_depth(media: &[Medium], ray: &Ray, within: &Bounds, limit: f64) -
     media.iter().map(depth).sum()
 }
 
-/// Where a ray enters a box and where it leaves, metres from its origin; a ray that misses it leaves before
-/// it enters. Whether one that runs in an upper side is inside is up to `closed`.
+/// Distances at which a ray enters and leaves a box, metres. For a ray that misses the box the second is
+/// smaller than the first. A ray inside the plane of an upper side is in the box only if `closed`.
 fn passage(ray: &Ray, around: &Bounds, closed: bool) -> [f64; 2] {
     let (mut enters, mut leaves) = (f64::NEG_INFINITY, f64::INFINITY);
     for axis in 0..3 {

@@ -1,16 +1,16 @@
-//! The regular grid of cells over the whole scene, and the order in which a ray passes them.
+//! The regular grid of cells over the scene (§3.4), and the cells that a ray passes.
 
 use glam::DVec3;
 
 use crate::geometry::{Bounds, Ray, clip_to_box};
 use crate::scene::{Polygon, Scene};
 
-/// A side of a box of cells: axis 0, 1 or 2, on the lower or upper side.
+/// One of the six sides of a block of cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Side {
     /// 0 for x, 1 for y, 2 for z.
     pub axis: usize,
-    /// Whether it is the side of greater coordinates.
+    /// Whether it is the side with the larger coordinate.
     pub upper: bool,
 }
 
@@ -26,18 +26,18 @@ impl Side {
         all
     };
 
-    /// Its place in [`Side::ALL`].
+    /// Its index in [`Side::ALL`].
     pub fn index(self) -> usize {
         self.axis * 2 + usize::from(self.upper)
     }
 }
 
-/// A box of cells: on each axis the first cell and the one past the last.
+/// A block of cells: on each axis the first cell and the one after the last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Block {
     /// First cell on each axis.
     pub low: [u32; 3],
-    /// One past the last cell on each axis.
+    /// The cell after the last one on each axis.
     pub high: [u32; 3],
 }
 
@@ -47,9 +47,9 @@ impl Block {
         (0..3).all(|a| (self.low[a]..self.high[a]).contains(&cell[a]))
     }
 
-    /// The side by which to pass on a ray that never enters the block: towards the cell of its origin.
-    /// Only a source in a side of its own environment has such rays. One that starts in no other
-    /// environment leaves the scene.
+    /// The side through which a ray leaves that never enters the block: the one towards the cell of its
+    /// origin. Only an emitter in a side of its own environment has such rays. If there is no environment
+    /// behind that side, the ray leaves the scene.
     pub(crate) fn side_towards(&self, start: [u32; 3], up_x: bool) -> Side {
         let beyond = |axis: usize| {
             let upper = start[axis] >= self.high[axis];
@@ -58,31 +58,30 @@ impl Block {
         (0..3).find_map(beyond).unwrap_or(Side { axis: 0, upper: up_x })
     }
 
-    /// Its cells, x running fastest.
+    /// Its cells. x varies fastest.
     pub fn cells(self) -> impl Iterator<Item = [u32; 3]> {
         let range = move |axis: usize| self.low[axis]..self.high[axis];
         range(2).flat_map(move |z| range(1).flat_map(move |y| range(0).map(move |x| [x, y, z])))
     }
 }
 
-/// A regular grid of cells over the whole scene, and which polygons each cell meets.
+/// A regular grid of cells over the whole scene, with the polygons that meet each cell.
 ///
-/// It does not depend on the decomposition: a local environment is a [`Block`] of its cells. A ray
-/// passes cells in the order of its plane crossings, sorted by (distance, axis); every crossing is
-/// computed from the plane itself, never by adding steps up. So the sequence of cells is a function
-/// of the ray alone, environments only cut it into stretches, and exactly one neighbour owns a ray
-/// that runs along an edge or through a corner.
+/// It does not depend on the decomposition: a local environment is a [`Block`] of its cells. A ray passes
+/// cells in the order of its plane crossings, sorted by (distance, axis). Each crossing is computed from the
+/// plane itself, never by adding increments. So the sequence of cells depends on the ray alone, environments
+/// only divide it into sections, and a ray along an edge or through a corner has exactly one owner.
 pub struct Grid {
     pub(crate) planes: [Vec<f64>; 3],
-    /// Cells in a metre.
+    /// Cells per metre.
     per_metre: [f64; 3],
-    /// Where the polygons of each cell start, and those of the last one end.
+    /// Index in `polygons` where the list of each cell starts, and the end of the last list.
     starts: Vec<u32>,
     polygons: Vec<u32>,
 }
 
 impl Grid {
-    /// The planes of a grid of `cells` that just holds a scene; a flat scene gets some thickness.
+    /// The planes of a grid of `cells` that just contains a scene. A flat scene gets some thickness.
     pub fn planes(scene: &Scene, cells: [u32; 3]) -> [Vec<f64>; 3] {
         let size = scene.bounds.size();
         let margin = size.map(|s| if s > 0.0 { 0.0 } else { 1e-3 * size.length() });
@@ -94,7 +93,7 @@ impl Grid {
         })
     }
 
-    /// Sort the polygons of a scene into the cells between `planes`.
+    /// Sorts the polygons of a scene into the cells between `planes`.
     pub fn new(scene: &Scene, planes: [Vec<f64>; 3]) -> Grid {
         let per_metre = planes
             .each_ref()
@@ -118,7 +117,7 @@ impl Grid {
         grid
     }
 
-    /// Number of planes across each axis.
+    /// Number of planes on each axis.
     pub fn plane_counts(&self) -> [usize; 3] {
         self.planes.each_ref().map(Vec::len)
     }
@@ -128,7 +127,7 @@ impl Grid {
         std::array::from_fn(|axis| self.planes[axis].len() as u32 - 1)
     }
 
-    /// The whole grid as one block: the traditional single environment.
+    /// The whole grid as one block: a single environment.
     pub fn whole(&self) -> Block {
         Block { low: [0; 3], high: self.cells() }
     }
@@ -141,76 +140,75 @@ impl Grid {
         Bounds { min: corner(block.low), max: corner(block.high) }
     }
 
-    /// The polygons that a cell meets, in increasing order.
+    /// The polygons that meet a cell, in increasing order.
     #[inline]
     pub fn polygons(&self, cell: [u32; 3]) -> &[u32] {
         let i = self.index(cell);
         &self.polygons[self.starts[i] as usize..self.starts[i + 1] as usize]
     }
 
-    /// How many polygons a cell, given by its place, meets.
+    /// Number of polygons that meet a cell, given by its index.
     #[inline]
-    pub(crate) fn polygons_in(&self, place: u32) -> u64 {
-        u64::from(self.starts[place as usize + 1] - self.starts[place as usize])
+    pub(crate) fn polygons_in(&self, cell: u32) -> u64 {
+        u64::from(self.starts[cell as usize + 1] - self.starts[cell as usize])
     }
 
-    /// The place of a cell among all, x running fastest.
+    /// The index of a cell. x varies fastest.
     #[inline]
     pub fn index(&self, [x, y, z]: [u32; 3]) -> usize {
         let [nx, ny, _] = self.cells();
         (z as usize * ny as usize + y as usize) * nx as usize + x as usize
     }
 
-    /// The cell in which a coordinate lies; one on a plane belongs to the cell above.
+    /// The cell that contains a coordinate. A coordinate on a plane belongs to the cell above it.
     fn cell_at(&self, axis: usize, coordinate: f64) -> u32 {
         let planes = &self.planes[axis];
         let above = planes.partition_point(|&plane| plane <= coordinate);
         above.clamp(1, planes.len() - 1) as u32 - 1
     }
 
-    /// The planes that [`Grid::cell_of`] looks at to find a point's cell, by axis and number, in turn.
-    pub(crate) fn planes_looked_at(&self, point: DVec3) -> Vec<(usize, u32)> {
-        let mut looked_at = Vec::new();
+    /// The planes, as axis and number, that [`Grid::cell_of`] tests to find the cell of a point, in order.
+    pub(crate) fn planes_tested(&self, point: DVec3) -> Vec<(usize, u32)> {
+        let mut tested = Vec::new();
         for axis in 0..3 {
             let numbers: Vec<u32> = (0..self.planes[axis].len() as u32).collect();
             _ = numbers.partition_point(|&plane| {
-                looked_at.push((axis, plane));
+                tested.push((axis, plane));
                 self.planes[axis][plane as usize] <= point[axis]
             });
         }
-        looked_at
+        tested
     }
 
-    /// The cells that a polygon meets, widened by the scene's tolerance: a hit that rounding puts
-    /// on the wrong side of a plane still finds its polygon there.
+    /// The cells that a polygon meets. They are widened by the tolerance of the scene, so that a polygon is
+    /// also found for a hit that rounding moves to the wrong side of a plane.
     fn cells_met(&self, scene: &Scene, polygon: &Polygon) -> Vec<u32> {
         let corners: Vec<DVec3> = scene.corners(polygon).collect();
-        let widen = DVec3::splat(scene.tolerance());
+        let widen = scene.tolerance();
         let around = Bounds::of(corners.iter().copied());
         let block = Block {
-            low: std::array::from_fn(|a| self.cell_at(a, around.min[a] - widen[a])),
-            high: std::array::from_fn(|a| self.cell_at(a, around.max[a] + widen[a]) + 1),
+            low: std::array::from_fn(|a| self.cell_at(a, around.min[a] - widen)),
+            high: std::array::from_fn(|a| self.cell_at(a, around.max[a] + widen) + 1),
         };
         let meets = |cell: &[u32; 3]| {
             let one = Block { low: *cell, high: cell.map(|c| c + 1) };
-            let Bounds { min, max } = self.bounds(&one);
-            let cell = Bounds { min: min - widen, max: max + widen };
+            let cell = self.bounds(&one).widened(widen);
             plane_meets(polygon, &cell) && !clip_to_box(&corners, &cell).is_empty()
         };
         block.cells().filter(meets).map(|cell| self.index(cell) as u32).collect()
     }
 
-    /// The cell in which a point lies.
+    /// The cell that contains a point.
     pub fn cell_of(&self, point: DVec3) -> [u32; 3] {
         std::array::from_fn(|axis| self.cell_at(axis, point[axis]))
     }
 
-    /// Where a ray's passage through a block begins, or `None` when it never enters; `start` is the
-    /// cell of its origin.
+    /// Starts the passage of a ray through a block, or returns `None` if the ray never enters it. `start` is
+    /// the cell of its origin.
     #[inline]
     pub fn enter(&self, block: &Block, ray: &Ray, start: [u32; 3]) -> Option<Passage<'_>> {
         let mut cell = start;
-        // The crossing that completes the entry: the last of those that each axis still lacks.
+        // The ray is inside once it has crossed into the block on every axis: the last of these crossings.
         let mut entry = (f64::NEG_INFINITY, 0);
         for axis in 0..3 {
             let plane = if start[axis] < block.low[axis] {
@@ -239,14 +237,14 @@ impl Grid {
         Some(Passage { grid: self, block: *block, ray: *ray, cell, next })
     }
 
-    /// The axis' cell after all its crossings that come before `entry`.
+    /// The cell on an axis after all crossings on that axis that come before `entry`.
     #[inline]
     fn cell_before(&self, axis: usize, start: u32, entry: (f64, usize), ray: &Ray) -> u32 {
         let direction = ray.direction[axis];
         if direction == 0.0 {
             return start;
         }
-        // A guess from the position, then put right by the crossings themselves.
+        // An estimate from the position, then corrected by the crossings themselves.
         let last = self.planes[axis].len() as u32 - 2;
         let along = ray.origin[axis] + direction * entry.0 - self.planes[axis][0];
         let mut cell = ((along * self.per_metre[axis]) as u32).min(last);
@@ -287,7 +285,7 @@ impl Grid {
         }
     }
 
-    /// The side by which to pass on a ray that never enters a block.
+    /// The side through which a ray leaves that never enters a block.
     pub fn side_towards(&self, block: &Block, ray: &Ray) -> Side {
         let start = self.cell_of(ray.origin);
         block.side_towards(start, ray.direction.x > 0.0)
@@ -302,7 +300,7 @@ fn plane_meets(polygon: &Polygon, cell: &Bounds) -> bool {
     (normal.dot(middle) - polygon.plane.offset).abs() <= reach * (1.0 + 1e-9)
 }
 
-/// A ray on its way through a block, cell by cell.
+/// The passage of a ray through a block, cell by cell.
 pub struct Passage<'a> {
     grid: &'a Grid,
     block: Block,
@@ -313,19 +311,19 @@ pub struct Passage<'a> {
 }
 
 impl<'a> Passage<'a> {
-    /// Polygons of the present cell.
+    /// Polygons of the current cell.
     #[inline]
     pub fn polygons(&self) -> &'a [u32] {
         self.grid.polygons(self.cell)
     }
 
-    /// Distance at which the ray leaves the present cell.
+    /// Distance at which the ray leaves the current cell.
     #[inline]
     pub fn exit(&self) -> f64 {
         self.next[self.next_axis()]
     }
 
-    /// Go on to the next cell, or say through which side the ray leaves the block.
+    /// Moves to the next cell, or returns the side through which the ray leaves the block.
     #[inline]
     pub fn step(&mut self) -> Result<(), Side> {
         let axis = self.next_axis();
@@ -343,7 +341,7 @@ impl<'a> Passage<'a> {
         Ok(())
     }
 
-    /// The axis of the next crossing; of equal distances the lower axis.
+    /// The axis of the next crossing. Of equal distances, the lower axis.
     #[inline]
     pub(crate) fn next_axis(&self) -> usize {
         let [x, y, z] = self.next;

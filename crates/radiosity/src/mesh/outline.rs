@@ -1,14 +1,16 @@
-//! The outline of a patch, which shooting never needs and exact solutions do.
+//! The corners of a patch. Shooting does not need them; exact solutions and pictures do.
 
 use glam::DVec3;
 
-use super::environment::{Leaf, LocalEnvironment, Patch};
+use super::environment::LocalEnvironment;
+use super::patch::Patch;
+use super::piece::Leaf;
 use super::space::Space;
 use crate::geometry::{area_and_centroid, clip_to_box, clip_to_slab};
 
 impl LocalEnvironment {
-    /// Corners of a patch, counter-clockwise seen from the front, metres: its slot's part of its
-    /// polygon in this environment. None for a patch without area.
+    /// Corners of a patch, counter-clockwise seen from the front, metres: the part of its polygon inside its
+    /// slots and this environment. Empty for a patch without area.
     pub fn outline(&self, space: &Space, patch: u32) -> Vec<DVec3> {
         let Patch { area, polygon, .. } = self.patches[patch as usize];
         let Some(piece) = self.piece(polygon).filter(|_| area > 0.0) else { return Vec::new() };
@@ -25,7 +27,7 @@ impl LocalEnvironment {
             return leaf(several);
         }
         let part = |slot: u32| leaf(Leaf { first: [slot % piece.nu, slot / piece.nu], side: 1 });
-        // Slots outside the polygon name a patch too, the nearest: not theirs is the area.
+        // Slots outside the polygon have the nearest patch too, but not its area.
         let slots = 0..piece.nu * piece.nv;
         let own = slots.filter(|slot| self.slots[(piece.first_slot + slot) as usize] == patch);
         let off = |outline: &Vec<DVec3>| (area_and_centroid(outline).0 - area).abs();
@@ -39,7 +41,7 @@ mod tests {
     use crate::{Face, LocalEnvironment, Material, PatchSize, Rgb, Scene, Space};
     use glam::DVec3;
 
-    /// Outlines have the areas and the centres of their patches, cut by interfaces or not.
+    /// Outlines have the areas and centroids of their patches, also when cut by interfaces.
     #[test]
     fn outlines_are_those_of_the_patches() {
         let points = [[0.0, 0.0, 0.0], [3.0, 0.5, 1.0], [2.0, 2.0, 1.0], [0.5, 1.0, 0.2]];

@@ -1,24 +1,25 @@
-//! A patch as several sources: what shooting from its centre alone gets wrong near it, its parts get
-//! right.
+//! A patch divided into several emitters. Shooting only from its centre is inaccurate for surfaces close to
+//! it.
 
 use glam::DVec3;
 
-use super::environment::{LocalEnvironment, extent};
+use super::environment::LocalEnvironment;
+use super::meshing::extent;
 use super::space::Space;
 use crate::geometry::{Bounds, area_and_centroid, clip_to_half, clip_to_slab};
 
-/// A part of a patch that shoots its share.
+/// A part of a patch, which shoots its share of the power.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Part {
-    /// Centroid: where its rays start.
+    /// Centroid, where its rays start.
     pub centre: DVec3,
-    /// Its share of the patch's area, and so of its power.
+    /// Its fraction of the patch's area, and so of its power.
     pub share: f64,
 }
 
 impl LocalEnvironment {
-    /// A patch cut into `along` parts in both directions, those without area left out; the patch
-    /// itself where that leaves none.
+    /// Divides a patch into `along` parts in both directions. Parts without area are left out. If none
+    /// remain, the result is the patch itself.
     pub fn parts(&self, space: &Space, patch: u32, along: u32) -> Vec<Part> {
         let whole = Part { centre: self.patches[patch as usize].centre, share: 1.0 };
         let outline = if along > 1 { self.outline(space, patch) } else { Vec::new() };
@@ -41,10 +42,10 @@ impl LocalEnvironment {
         parts.filter(|part| part.share > 0.0).collect()
     }
 
-    /// Into how many parts a patch is to be cut in both directions so that nothing in front of it is
-    /// nearer to its centre than `edges` times a part's longer edge: 1 to `most`.
+    /// Number of parts in both directions, 1 to `most`, so that no polygon in front of the patch is nearer
+    /// to its centre than `edges` times the longer edge of a part.
     ///
-    /// All polygons of the scene count, those that others hide too, so that it does not depend on the
+    /// All polygons of the scene count, also hidden ones, so that the result does not depend on the
     /// decomposition.
     pub fn parts_needed(&self, space: &Space, patch: u32, edges: f64, most: u32) -> u32 {
         let outline = self.outline(space, patch);
@@ -62,7 +63,7 @@ impl LocalEnvironment {
         }
     }
 
-    /// How far from a patch's centre the nearest polygon in front of it is, if within `reach`.
+    /// Distance from the centre of a patch to the nearest polygon in front of it, if within `reach`.
     fn nearest_in_front(&self, space: &Space, patch: u32, reach: f64) -> Option<f64> {
         let scene = &space.scene;
         let patch = &self.patches[patch as usize];
@@ -88,7 +89,7 @@ impl LocalEnvironment {
         nearest
     }
 
-    /// Unit vectors along the two directions in which a patch's polygon is meshed.
+    /// Unit vectors of the two directions in which the polygon of a patch is meshed.
     fn axes(&self, space: &Space, patch: u32) -> [DVec3; 2] {
         let polygon = &space.scene.polygons[self.patches[patch as usize].polygon as usize];
         let mut corners = space.scene.corners(polygon);
@@ -98,7 +99,7 @@ impl LocalEnvironment {
     }
 }
 
-/// From a point to a convex polygon, metres.
+/// Distance from a point to a convex polygon, metres.
 fn distance(point: DVec3, corners: &[DVec3], normal: DVec3) -> f64 {
     let Some(&last) = corners.last() else { return f64::INFINITY };
     let mut before = last;

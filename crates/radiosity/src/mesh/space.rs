@@ -1,4 +1,4 @@
-//! A scene sorted into the global grid: what every ray test reads, whatever the decomposition.
+//! A scene sorted into the global grid. It does not depend on the decomposition.
 
 use glam::DVec3;
 
@@ -8,16 +8,16 @@ use crate::scene::Scene;
 
 /// A scene with its grid of cells.
 pub struct Space {
-    /// The scene, its vertices snapped to planes of the grid where they all but lie on them.
+    /// The scene. Vertices within the tolerance of a grid plane were moved onto it.
     pub scene: Scene,
     /// The grid over the whole scene.
     pub grid: Grid,
-    /// The scene's polygons, ready to be tested against rays.
+    /// The polygons in the form that ray tests read.
     pub facets: Facets,
 }
 
 impl Space {
-    /// Sort a scene into a grid of `cells`, each number at least 1.
+    /// Sorts a scene into a grid with `cells` cells along each axis, at least 1.
     pub fn new(mut scene: Scene, cells: [u32; 3]) -> Space {
         let planes = Grid::planes(&scene, cells);
         snap(&mut scene, &planes);
@@ -27,8 +27,8 @@ impl Space {
     }
 }
 
-/// Put vertices that lie within the tolerance of a plane of the grid exactly onto it. A polygon then
-/// either lies in a plane of the grid or is clear of it, and a ray crosses both at the same number.
+/// Moves vertices within the tolerance of a grid plane exactly onto it. A polygon is then either in a grid
+/// plane, and a ray crosses both at exactly the same distance, or clearly outside of it.
 fn snap(scene: &mut Scene, planes: &[Vec<f64>; 3]) {
     let tolerance = scene.tolerance();
     for vertex in &mut scene.vertices {

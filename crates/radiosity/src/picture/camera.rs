@@ -1,4 +1,4 @@
-//! A pinhole camera.
+//! A pinhole camera, and standard views of a scene.
 
 use glam::DVec3;
 
@@ -7,13 +7,13 @@ use crate::geometry::Bounds;
 /// A pinhole camera. Positions are local to the scene's origin, metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// Where it stands.
+    /// Position of the camera.
     pub eye: DVec3,
-    /// What it looks at.
+    /// Point in the middle of the picture.
     pub target: DVec3,
-    /// What is up in the picture; not along the line of sight.
+    /// Upward direction. Not parallel to the line of sight.
     pub up: DVec3,
-    /// Angle from the lower to the upper edge of the picture, degrees.
+    /// Vertical angle of view, degrees.
     pub field_of_view_degrees: f64,
     /// Pixels in a row.
     pub width: u32,
@@ -22,12 +22,12 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// Looks down from the front right, so that the box just fills the picture; z is up.
+    /// A view down from the front right in which the box just fills the picture. z is up.
     pub fn overview(bounds: &Bounds, width: u32, height: u32) -> Camera {
         Camera::around(bounds, DVec3::new(-0.25, 0.9, -1.1), width, height)
     }
 
-    /// Stands in a corner of the box, at an eye's height if it is so high, and looks across it.
+    /// A view across the box from one of its corners, at eye height if the box is high enough.
     pub fn inside(bounds: &Bounds, width: u32, height: u32) -> Camera {
         const EYE: f64 = 1.7;
         let at = |share: f64, height: f64| {
@@ -39,7 +39,7 @@ impl Camera {
         Camera { eye, target, field_of_view_degrees, ..Camera::overview(bounds, width, height) }
     }
 
-    /// Looks along a direction, so that the box just fills the picture; z is up.
+    /// A view along a direction in which the box just fills the picture. z is up.
     pub fn around(bounds: &Bounds, direction: DVec3, width: u32, height: u32) -> Camera {
         const FILLED: f64 = 0.96;
         let centre = (bounds.min + bounds.max) * 0.5;
@@ -58,8 +58,8 @@ impl Camera {
                 bounds.size() * (DVec3::from_array(high) - 0.5)
             })
         };
-        // From a distance d behind the centre and a shift s to the side, a corner at (side, depth)
-        // is inside where |side - s| <= slope (depth + d): the least d for which an s exists.
+        // With the camera at distance d behind the centre and shifted by s, a corner at (side, depth) is in
+        // the picture if |side - s| <= slope (depth + d). This is the smallest d for which an s exists.
         let fit = |axis: DVec3, slope: f64| {
             let slope = slope * FILLED;
             let most = corners().map(|c| c.dot(axis) - slope * c.dot(view.forward));
@@ -76,7 +76,7 @@ impl Camera {
         camera
     }
 
-    /// Axes and slopes.
+    /// Its axes and angles of view.
     pub(crate) fn view(&self) -> View {
         let forward = (self.target - self.eye).normalize_or(DVec3::Y);
         let right =
@@ -87,7 +87,7 @@ impl Camera {
     }
 }
 
-/// Orthonormal axes of a camera, and how far sideways it sees per metre of depth.
+/// Orthonormal axes of a camera, and half the width and height that it sees per metre of depth.
 pub(crate) struct View {
     pub(crate) forward: DVec3,
     pub(crate) right: DVec3,

@@ -1,4 +1,4 @@
-//! Meshes as glTF 2.0 files, in binary: <https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html>
+//! Binary glTF 2.0 files of meshes: <https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html>
 
 use glam::DVec3;
 use serde_json::{Value, json};
@@ -8,20 +8,20 @@ use super::triangles::Mesh;
 use crate::geometry::Bounds;
 use crate::scene::Rgb;
 
-/// Numbers of the specification.
+/// Constants of the specification.
 const FLOAT: u32 = 5126;
 const UNSIGNED_INT: u32 = 5125;
 const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
 impl Mesh<'_> {
-    /// A binary glTF file of the mesh where its vertices have `light`, W/m², with the scene's origin
-    /// at `origin`, metres; and the radiosity that became middle grey. Up is z here and y in the
-    /// file, which turns the scene.
+    /// A binary glTF file of the mesh with radiosity `light`, W/m², at its vertices and the origin of the scene
+    /// at `origin`, metres. Also returns the radiosity shown as middle grey. The file contains a rotation,
+    /// since the upward axis is z here and y in glTF.
     ///
-    /// A vertex has `COLOR_0`, what a picture with this exposure and tone would show, in proportion
-    /// to light (viewers then apply sRGB's transfer function), and `_RADIOSITY`, W/m². The material
-    /// is not lit again by the viewer (`KHR_materials_unlit`).
+    /// Vertices have the attributes `COLOR_0`, the linear brightness that a picture with this exposure and
+    /// tone would show (viewers apply the sRGB transfer function), and `_RADIOSITY`, W/m². Viewers do not
+    /// light the material again (`KHR_materials_unlit`).
     pub fn to_glb(
         &self,
         light: &[Rgb],
@@ -36,7 +36,7 @@ impl Mesh<'_> {
         let mut file = File::default();
         let positions = self.positions();
         let bounds = Bounds::of(positions.iter().copied());
-        // As the file's 32 bits round them, exactly.
+        // Rounded to 32 bits exactly as in the file.
         let [low, high] =
             [bounds.min, bounds.max].map(|v| json!(v.as_vec3().as_dvec3().to_array()));
         let position = file.vectors(positions.iter().copied());
@@ -52,7 +52,7 @@ impl Mesh<'_> {
         (file.whole(&primitive, origin, middle_grey), middle_grey)
     }
 
-    /// Middle grey of all triangles, each by its area, W/m².
+    /// Middle grey of all triangles, weighted by area, W/m².
     fn middle_grey(&self, light: &[Rgb]) -> f64 {
         let of_triangle = |triangle: [u32; 3]| {
             let [a, b, c] = triangle.map(|vertex| self.positions()[vertex as usize]);
@@ -64,7 +64,7 @@ impl Mesh<'_> {
     }
 }
 
-/// A file in the making: its bytes, and what they are.
+/// A glTF file: its binary data, and the description of the data.
 #[derive(Default)]
 struct File {
     bytes: Vec<u8>,
@@ -73,7 +73,7 @@ struct File {
 }
 
 impl File {
-    /// Adds vectors, a vertex each; returns the number of their accessor.
+    /// Adds one vector per vertex and returns the index of their accessor.
     fn vectors(&mut self, vectors: impl Iterator<Item = DVec3>) -> usize {
         let start = self.bytes.len();
         let numbers = vectors.flat_map(|vector| vector.as_vec3().to_array());
@@ -82,7 +82,7 @@ impl File {
         self.accessor(start, ARRAY_BUFFER, json!({ "componentType": FLOAT, "type": "VEC3" }), count)
     }
 
-    /// Adds numbers of vertices; returns the number of their accessor.
+    /// Adds vertex indices and returns the index of their accessor.
     fn indices(&mut self, vertices: impl Iterator<Item = u32>) -> usize {
         let start = self.bytes.len();
         self.bytes.extend(vertices.flat_map(u32::to_le_bytes));
@@ -91,7 +91,7 @@ impl File {
         self.accessor(start, ELEMENT_ARRAY_BUFFER, kind, count)
     }
 
-    /// What the bytes from `start` on are.
+    /// Describes the bytes from `start` on, and returns the index of the accessor.
     fn accessor(&mut self, start: usize, target: u32, mut kind: Value, count: usize) -> usize {
         let length = self.bytes.len() - start;
         self.views.push(json!({
@@ -103,7 +103,7 @@ impl File {
         self.accessors.len() - 1
     }
 
-    /// The file: a header, a chunk of JSON, a chunk of bytes.
+    /// The whole file: a header, a JSON chunk, a binary chunk.
     fn whole(mut self, primitive: &Value, origin: DVec3, middle_grey: f64) -> Vec<u8> {
         let half = std::f64::consts::FRAC_1_SQRT_2;
         let json = json!({

@@ -1,50 +1,48 @@
-//! Pictures of a scene: a z-buffer finds what is seen, a function says how bright it is.
+//! Pictures of a scene, drawn with a z-buffer, and their PNG files.
 
-use std::fs;
 use std::io;
-use std::path::Path;
 
 use glam::{DVec3, Vec3};
 
 use super::camera::Camera;
-use super::canvas::Canvas;
 use super::tone::{Exposure, Tone, geometric_mean, srgb};
+use super::z_buffer::ZBuffer;
 use crate::scene::{Rgb, Scene};
 
-/// Samples along a pixel's side.
-const FINENESS: usize = 2;
+/// Number of samples along a side of a pixel.
+const SAMPLES: usize = 2;
 
-/// The most pixels that a picture may have along a side.
+/// Largest number of pixels along a side of a picture.
 pub const LARGEST_PICTURE: u32 = 8192;
 
-/// Brightness where nothing is seen, of 1.
+/// Brightness of the background, 0 to 1.
 const BACKGROUND: Rgb = Rgb::splat(0.012);
 
-/// What is shown, and how bright.
+/// What is shown, and with which exposure.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PictureOptions {
-    /// How radiosity becomes brightness.
+    /// How radiosity is scaled to brightness.
     pub exposure: Exposure,
-    /// How brightness nears white.
+    /// How brightness is limited to white.
     pub tone: Tone,
-    /// Leaves out everything above this height (z, local, metres): a look into one floor.
+    /// Omits everything above this height (z, local, metres), to show one floor.
     pub cut_above: Option<f64>,
 }
 
-/// An RGB picture, eight bits a colour, sRGB.
+/// An sRGB picture with eight bits per component.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
     /// Pixels in a row.
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// Three bytes a pixel, rows from the top, from the left.
+    /// Three bytes per pixel, rows from top to bottom, from left to right.
     pub rgb: Vec<u8>,
-    /// The radiosity that became middle grey, W/m².
+    /// The radiosity shown as middle grey, W/m².
     pub middle_grey: f64,
 }
 
-/// A picture of a size that cannot be made.
+/// A picture size that is not possible.
 #[derive(Debug, thiserror::Error)]
 #[error("picture of {width} x {height} pixels; expected 1 to {LARGEST_PICTURE} either way")]
 pub struct PictureError {
@@ -52,12 +50,13 @@ pub struct PictureError {
     height: u32,
 }
 
-/// Draws what the camera sees. Polygons are seen from their fronts only, so that one looks through
-/// the ceiling into a room as into a doll's house. `colour` gives the radiosity, W/m², of a polygon
-/// (by its index) at a point (local coordinates).
+/// Draws what the camera sees.
+///
+/// Polygons are visible only from their fronts, so that a camera above a room sees through its ceiling.
+/// `colour` returns the radiosity, W/m², of a polygon (by its index) at a point (local coordinates).
 ///
 /// # Errors
-/// A picture without pixels or with more than 8192 along a side.
+/// A picture without pixels or with more than 8192 pixels along a side.
 pub fn render(
     scene: &Scene,
     camera: &Camera,
@@ -68,9 +67,9 @@ pub fn render(
     if !(1..=LARGEST_PICTURE).contains(&width) || !(1..=LARGEST_PICTURE).contains(&height) {
         return Err(PictureError { width, height });
     }
-    let mut canvas = Canvas::new(camera, FINENESS);
-    canvas.draw(scene, options.cut_above.unwrap_or(f64::INFINITY));
-    let samples: Vec<Sample> = canvas
+    let mut buffer = ZBuffer::new(camera, SAMPLES);
+    buffer.draw(scene, options.cut_above.unwrap_or(f64::INFINITY));
+    let samples: Vec<Sample> = buffer
         .seen()
         .map(|seen| seen.map(|(polygon, point)| colour(polygon, point).as_vec3()))
         .collect();
@@ -81,31 +80,31 @@ pub fn render(
         Exposure::MiddleGrey(radiosity) => radiosity,
     };
     let shown = |rgb: Vec3| options.tone.map(rgb.as_dvec3() / middle_grey);
-    let rgb = develop(&samples, width as usize, shown);
+    let rgb = encode_pixels(&samples, width as usize, shown);
     Ok(Picture { width, height, rgb, middle_grey })
 }
 
-/// Radiosity seen at a sample, if anything is.
+/// Visible radiosity at a sample, or `None` for the background.
 type Sample = Option<Vec3>;
 
-/// Averages the samples of each pixel and encodes them.
-fn develop(samples: &[Sample], width: usize, shown: impl Fn(Vec3) -> Rgb) -> Vec<u8> {
-    let mut rgb = Vec::with_capacity(3 * samples.len() / (FINENESS * FINENESS));
-    for rows in samples.chunks_exact(width * FINENESS * FINENESS) {
+/// Averages the samples of each pixel and encodes the pixels in sRGB.
+fn encode_pixels(samples: &[Sample], width: usize, shown: impl Fn(Vec3) -> Rgb) -> Vec<u8> {
+    let mut rgb = Vec::with_capacity(3 * samples.len() / (SAMPLES * SAMPLES));
+    for rows in samples.chunks_exact(width * SAMPLES * SAMPLES) {
         for column in 0..width {
             let pixel: Rgb = rows
-                .chunks_exact(width * FINENESS)
-                .flat_map(|row| &row[column * FINENESS..][..FINENESS])
+                .chunks_exact(width * SAMPLES)
+                .flat_map(|row| &row[column * SAMPLES..][..SAMPLES])
                 .map(|sample| sample.map_or(BACKGROUND, &shown))
                 .sum();
-            rgb.extend((pixel / (FINENESS * FINENESS) as f64).to_array().map(srgb));
+            rgb.extend((pixel / (SAMPLES * SAMPLES) as f64).to_array().map(srgb));
         }
     }
     rgb
 }
 
-/// Colours for a scene that is not solved: lights glow, all else is lit from above and the sides,
-/// so that no two faces of a box look alike.
+/// Simple lighting for a scene without a solution: lights glow, and all other surfaces are shaded by their
+/// orientation, so that the faces of a box differ.
 pub fn studio_light(scene: &Scene) -> impl Fn(u32, DVec3) -> Rgb {
     let sun = DVec3::new(0.45, -0.25, 0.8);
     move |polygon, _| {
@@ -117,10 +116,10 @@ pub fn studio_light(scene: &Scene) -> impl Fn(u32, DVec3) -> Rgb {
 }
 
 impl Picture {
-    /// The picture as a PNG file's content.
+    /// The content of a PNG file of the picture.
     ///
     /// # Errors
-    /// A picture whose bytes do not fit its size.
+    /// A picture whose number of bytes does not match its size.
     pub fn encode_png(&self) -> io::Result<Vec<u8>> {
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, self.width, self.height);
@@ -131,13 +130,5 @@ impl Picture {
         writer.write_image_data(&self.rgb)?;
         writer.finish()?;
         Ok(bytes)
-    }
-
-    /// Writes the picture to a PNG file.
-    ///
-    /// # Errors
-    /// As [`Picture::encode_png`], or a file that cannot be written.
-    pub fn write_png(&self, path: &Path) -> io::Result<()> {
-        fs::write(path, self.encode_png()?)
     }
 }

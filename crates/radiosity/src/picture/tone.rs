@@ -1,33 +1,33 @@
-//! From radiosity to what a screen can show.
+//! Tone mapping: from radiosity to brightness on a screen.
 
 use crate::scene::Rgb;
 
-/// How radiosity becomes brightness.
+/// How radiosity is scaled to brightness.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Exposure {
-    /// The geometric mean of what is seen becomes middle grey.
+    /// The geometric mean of the visible radiosities is shown as middle grey.
     #[default]
     Auto,
-    /// This radiosity, W/m², becomes middle grey.
+    /// This radiosity, W/m², is shown as middle grey.
     MiddleGrey(f64),
 }
 
-/// How what is brighter than middle grey nears white.
+/// How brightness above middle grey is compressed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Tone {
-    /// Reinhard et al. 2002, equation 4, on the luminance, so that colours stay what they are. Six
-    /// times middle grey is white.
+    /// Reinhard et al. 2002, equation 4, applied to the luminance, so that hues do not change. Six times middle
+    /// grey is white.
     #[default]
     Reinhard,
-    /// In proportion, middle grey at 0.18, until it is cut off at 1: what was can be read back.
+    /// Proportional, with middle grey at 0.18, clipped at 1. Radiosities can be read back from the picture.
     Linear,
 }
 
-/// Brightness of middle grey where all is in proportion, of 1.
+/// Brightness of middle grey in a linear picture.
 const MIDDLE: f64 = 0.18;
 
 impl Tone {
-    /// From radiosity over middle grey to the screen's 0..1, in proportion to light.
+    /// From radiosity relative to middle grey to linear brightness, 0 to 1.
     pub fn map(self, relative: Rgb) -> Rgb {
         const KEY: f64 = 0.35;
         const WHITE: f64 = KEY * 6.0;
@@ -42,13 +42,13 @@ impl Tone {
     }
 }
 
-/// Brightness to the eye (ITU-R BT.709).
+/// Luminance (ITU-R BT.709).
 fn luminance(rgb: Rgb) -> f64 {
     rgb.dot(Rgb::new(0.2126, 0.7152, 0.0722))
 }
 
-/// The geometric mean of radiosities, each with its weight, as middle grey, W/m². What is all but
-/// black counts for a twentieth of the mean, or rooms not lit yet would turn the others white.
+/// The weighted geometric mean of the luminance of radiosities, W/m², used as middle grey. Values are at least
+/// a twentieth of the arithmetic mean; otherwise dark rooms would make the others too bright.
 pub(crate) fn geometric_mean(seen: &(impl Iterator<Item = (Rgb, f64)> + Clone)) -> f64 {
     let weight: f64 = seen.clone().map(|(_, weight)| weight).sum();
     let seen = || seen.clone().map(|(rgb, weight)| (luminance(rgb), weight));
@@ -61,7 +61,7 @@ pub(crate) fn geometric_mean(seen: &(impl Iterator<Item = (Rgb, f64)> + Clone)) 
     }
 }
 
-/// sRGB's transfer function, in eight bits.
+/// The sRGB transfer function, rounded to eight bits.
 pub(crate) fn srgb(linear: f64) -> u8 {
     let encoded = if linear <= 0.003_130_8 {
         12.92 * linear

@@ -1,4 +1,4 @@
-//! Patches as triangles, with radiosity at their corners: what pictures and other viewers draw.
+//! A mesh of triangles with radiosity at the vertices, built from patches, for pictures and other viewers.
 
 use std::collections::BTreeMap;
 
@@ -9,32 +9,32 @@ use crate::geometry::Bounds;
 use crate::mesh::{LocalEnvironment, Space};
 use crate::scene::{Polygon, Rgb, Scene};
 
-/// How radiosity runs over a patch.
+/// How radiosity varies over a patch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Shading {
-    /// A corner has the mean, by area, of the patches that meet there, in one plane of one object
-    /// and of one material; the middle of a patch has the mean along its edges.
+    /// A corner has the mean, weighted by area, of the patches of the same plane, object and material that
+    /// meet there. The middle of a patch has the mean along its edges.
     #[default]
     Smooth,
-    /// Every patch has its own radiosity all over.
+    /// Constant radiosity on each patch.
     Flat,
 }
 
-/// The patches of all environments of a scene, each a fan of triangles around its middle.
+/// A mesh of all patches of a scene. Each patch is a fan of triangles around its middle.
 pub struct Mesh<'a> {
     environments: &'a [LocalEnvironment],
-    /// By environment and patch.
+    /// The fan of each patch, by environment.
     fans: Vec<Vec<Fan>>,
     vertices: Vertices,
-    /// By polygon: the environments in which it has patches, and their bounds.
+    /// The environments in which each polygon has patches, and their bounds.
     homes: Vec<Vec<(u32, Bounds)>>,
 }
 
-/// Vertices of a patch: its middle and then its corners; none for a patch without area.
+/// Vertices of a patch: its middle, then its corners. Empty for a patch without area.
 type Fan = Vec<u32>;
 
 impl<'a> Mesh<'a> {
-    /// The triangles of all patches of these environments of a scene.
+    /// The mesh of all patches of these environments.
     pub fn new(space: &Space, environments: &'a [LocalEnvironment], shading: Shading) -> Mesh<'a> {
         let scene = &space.scene;
         let mut vertices = Vertices::new(STEP * scene.bounds.size().length(), shading);
@@ -56,12 +56,12 @@ impl<'a> Mesh<'a> {
         Mesh { environments, fans, vertices, homes }
     }
 
-    /// Where the vertices are, local coordinates, metres.
+    /// Positions of the vertices, local coordinates, metres.
     pub fn positions(&self) -> &[DVec3] {
         &self.vertices.positions
     }
 
-    /// Unit normals at the vertices.
+    /// Unit normals of the vertices.
     pub fn normals(&self) -> &[DVec3] {
         &self.vertices.normals
     }
@@ -71,7 +71,7 @@ impl<'a> Mesh<'a> {
         self.fans.iter().flatten().flat_map(|fan| triangles(fan))
     }
 
-    /// Radiosity at the vertices when the patches have these, W/m², by environment and patch.
+    /// Radiosity of the vertices, W/m², from the radiosities of the patches, by environment and patch.
     pub fn light(&self, radiosity: &[Vec<Rgb>]) -> Vec<Rgb> {
         let mut sums = vec![(Rgb::ZERO, 0.0); self.vertices.positions.len()];
         let patches = self.environments.iter().flat_map(|e| &e.patches);
@@ -93,14 +93,14 @@ impl<'a> Mesh<'a> {
         light
     }
 
-    /// Vertices of each patch by environment and patch: its middle, then its corners; none for a
-    /// patch without area.
+    /// Vertices of each patch, environment after environment: its middle, then its corners. Empty for a patch
+    /// without area.
     pub fn fans(&self) -> impl Iterator<Item = &[u32]> {
         self.fans.iter().flatten().map(Vec::as_slice)
     }
 
-    /// Radiosity of a polygon at a point on its front, W/m², where the vertices have `light`; black
-    /// where no patch is.
+    /// Radiosity of a polygon at a point on its front, W/m², interpolated from `light` at the vertices. Zero
+    /// where there is no patch.
     pub fn radiosity_at(&self, light: &[Rgb], polygon: u32, point: DVec3) -> Rgb {
         let homes = &self.homes[polygon as usize];
         let here = |bounds: &Bounds| point.clamp(bounds.min, bounds.max) == point;
@@ -113,7 +113,7 @@ impl<'a> Mesh<'a> {
             let corners = triangle.map(|vertex| self.vertices.positions[vertex as usize]);
             Some((barycentric(corners, point)?, triangle))
         });
-        // The triangle that the point is in, or by rounding the least outside of.
+        // The triangle that contains the point or, after rounding, is nearest to it.
         let inside = weighed.max_by(|(a, _), (b, _)| a.min_element().total_cmp(&b.min_element()));
         let Some((weights, triangle)) = inside else { return Rgb::ZERO };
         let [a, b, c] = triangle.map(|vertex| light[vertex as usize]);
@@ -121,15 +121,15 @@ impl<'a> Mesh<'a> {
     }
 }
 
-/// Around the middle, from corner to corner.
+/// The triangles of a fan: its middle and two consecutive corners.
 fn triangles(fan: &[u32]) -> impl Iterator<Item = [u32; 3]> {
     let corners = fan.get(1..).unwrap_or_default();
     let next = corners.iter().cycle().skip(1);
     corners.iter().zip(next).map(|(&corner, &next)| [fan[0], corner, next])
 }
 
-/// The mean of what is known at corners along the edges between them: the same when an edge is told in
-/// two pieces.
+/// The mean of values at corners along the edges between them. It does not change if an edge is divided in
+/// two.
 fn mean_along(corners: impl Iterator<Item = (DVec3, DVec3)> + Clone) -> DVec3 {
     let next = corners.clone().cycle().skip(1);
     let (mut sum, mut length) = (DVec3::ZERO, 0.0);
@@ -141,7 +141,7 @@ fn mean_along(corners: impl Iterator<Item = (DVec3, DVec3)> + Clone) -> DVec3 {
     sum / length
 }
 
-/// Weights of the corners that make up a point in the plane of a triangle; none if that has no area.
+/// Barycentric coordinates of a point in the plane of a triangle, or `None` if it has no area.
 fn barycentric([a, b, c]: [DVec3; 3], point: DVec3) -> Option<DVec3> {
     let normal = (b - a).cross(c - a);
     let part = |from: DVec3, to: DVec3| (to - from).cross(point - from).dot(normal);
@@ -149,21 +149,21 @@ fn barycentric([a, b, c]: [DVec3; 3], point: DVec3) -> Option<DVec3> {
     (whole > 0.0).then(|| DVec3::new(part(b, c), part(c, a), part(a, b)) / whole)
 }
 
-/// Positions within this part of the scene's diagonal of each other are one vertex, but for two on
-/// different sides of a step, where shading then has a seam.
+/// Grid step for merging vertices, as a fraction of the diagonal of the scene: positions that round to the same
+/// step become one vertex.
 const STEP: f64 = 1e-7;
 
-/// What patches that share corners have in common: object, material, and in steps the direction of
-/// their plane. With these one point lies in one plane.
+/// Patches share vertices if they have the same object, the same material and the same plane normal (in steps).
+/// At one point there is only one such plane.
 type Group = (u32, u32, [i64; 3]);
 
-/// Vertices, each known by what it is the corner of.
+/// The vertices of a mesh.
 struct Vertices {
     positions: Vec<DVec3>,
     normals: Vec<DVec3>,
     /// Length of a step, metres.
     step: f64,
-    /// By group and place, in steps.
+    /// Vertices by group and position (in steps). Only for smooth shading.
     shared: Option<BTreeMap<(Group, [i64; 3]), u32>>,
 }
 
@@ -173,7 +173,7 @@ impl Vertices {
         Vertices { positions: Vec::new(), normals: Vec::new(), step, shared }
     }
 
-    /// A fan over a convex outline on a polygon.
+    /// The fan of a patch with a convex outline on a polygon.
     fn fan(&mut self, polygon: &Polygon, outline: &[DVec3]) -> Fan {
         if outline.len() < 3 {
             return Fan::new();
@@ -193,7 +193,7 @@ impl Vertices {
         fan
     }
 
-    /// Makes vertices that lie on edges of patches corners of these, too.
+    /// Adds vertices that are on the edges of patches to the corners of these patches.
     fn stitch(&self, fans: &mut [Vec<Fan>], environments: &[LocalEnvironment], scene: &Scene) {
         let mut groups: BTreeMap<Group, Vec<u32>> = BTreeMap::new();
         for ((group, _), &vertex) in self.shared.iter().flatten() {
@@ -220,10 +220,12 @@ impl Vertices {
     }
 }
 
+/// The group of the patches of a polygon.
 fn group(polygon: &Polygon) -> Group {
     (polygon.object, polygon.material, steps(polygon.plane.normal / STEP))
 }
 
+/// A vector rounded to integers.
 fn steps(vector: DVec3) -> [i64; 3] {
     vector.to_array().map(|coordinate| coordinate.round() as i64)
 }

@@ -1,5 +1,5 @@
-//! From the faces of a file to a scene that the method can stand on: local coordinates, welded
-//! vertices, convex planar polygons of positive area, no two alike.
+//! Cleans the faces of a file into a scene: local coordinates, welded vertices, convex planar polygons
+//! with positive area, no duplicates.
 
 use std::collections::BTreeSet;
 
@@ -12,21 +12,20 @@ use super::scene::{Face, Material, Plane, Polygon, Scene};
 use super::warnings::{WarningKind, Warnings};
 use crate::geometry::Bounds;
 
-/// Greatest distance of a corner from its face's plane, over the face's size, that still counts as
-/// planar.
+/// A face is planar if no corner is farther from its plane than this fraction of the size of the face.
 const FLATNESS: f64 = 1e-6;
 
 impl Scene {
-    /// Cleans faces into a scene, and says what had to be mended.
+    /// Cleans faces into a scene, with warnings about what had to be repaired.
     ///
-    /// Coordinates become local to the centre of all corners and closer than 1e-9 of the diagonal
-    /// are one. Faces that are not planar (to 1e-6 of their size) or not convex are cut into
-    /// triangles; those without area, and those that repeat an earlier face's corners on the same
-    /// side, are dropped. A face of a two-sided material stands in the scene twice, back to back.
-    /// Polygons in one plane share it to the bit.
+    /// Coordinates become local to the centre of all corners, and those closer than 1e-9 of the diagonal
+    /// become equal. Faces that are not planar (to 1e-6 of their size) or not convex are divided into
+    /// triangles. Faces without area, and faces with the same corners and front as an earlier one, are
+    /// dropped. A face of a two-sided material is stored twice, back to back. Polygons in the same plane
+    /// share it to the bit.
     ///
     /// # Errors
-    /// An impossible material, a corner that is not finite or beyond 1e12 m, an index out of range,
+    /// An impossible material, a coordinate that is not finite or beyond 1e12 m, an index out of range,
     /// too many corners, or no face with an area.
     pub fn new(
         faces: &[Face],
@@ -66,14 +65,14 @@ impl Scene {
     }
 }
 
-/// A face's object and its number within it, counted from 1.
+/// Names a face by its object and its number in it, counted from 1.
 fn place(faces: &[Face], index: usize, objects: &[String]) -> String {
     let object = faces[index].object;
     let number = faces[..=index].iter().filter(|f| f.object == object).count();
     format!("object \"{}\", face {number}", objects[object as usize])
 }
 
-/// Refuses what cannot be meant.
+/// Rejects invalid materials, indices and coordinates.
 fn check(faces: &[Face], materials: &[Material], objects: &[String]) -> Result<(), SceneError> {
     materials.iter().try_for_each(Material::check)?;
     let corners = faces.iter().map(|f| f.points.len()).sum();
@@ -88,7 +87,7 @@ fn check(faces: &[Face], materials: &[Material], objects: &[String]) -> Result<(
                 return Err(SceneError::Index { face: number + 1, what, index, count });
             }
         }
-        // Not a number fails the comparison too.
+        // NaN fails the comparison too.
         if let Some(&at) = face.points.iter().find(|p| !p.abs().cmple(DVec3::splat(FARTHEST)).all())
         {
             return Err(SceneError::Corner { place: place(faces, number, objects), at });
@@ -97,10 +96,10 @@ fn check(faces: &[Face], materials: &[Material], objects: &[String]) -> Result<(
     Ok(())
 }
 
-/// Vertices of all faces, local to the origin, and the index of each corner's vertex.
+/// Welds corners: returns distinct vertices, local to the origin, and the index of each corner's vertex.
 ///
-/// Coordinates closer than the tolerance become one axis by axis, so that faces which share a plane
-/// x = c share it exactly, and vertices are the same when their three coordinates are.
+/// On each axis coordinates closer than the tolerance become equal, so that faces in the same plane x = c
+/// share it exactly. Vertices are equal if their three coordinates are.
 fn weld(faces: &[Face], origin: DVec3, tolerance: f64) -> (Vec<DVec3>, Vec<u32>) {
     let points = || faces.iter().flat_map(|f| &f.points).map(|&p| p - origin);
     let levels: [Vec<f64>; 3] = std::array::from_fn(|axis| {
@@ -124,7 +123,7 @@ fn weld(faces: &[Face], origin: DVec3, tolerance: f64) -> (Vec<DVec3>, Vec<u32>)
     (vertices, corners)
 }
 
-/// The vertices that polygons stand on; renumbers the polygons' corners.
+/// Keeps the vertices that polygons use, and renumbers the corners of the polygons.
 fn keep_used(vertices: &[DVec3], polygons: &mut [Polygon]) -> Vec<DVec3> {
     let mut number = vec![u32::MAX; vertices.len()];
     for &v in polygons.iter().flat_map(|p| &p.vertices) {
@@ -141,14 +140,14 @@ fn keep_used(vertices: &[DVec3], polygons: &mut [Polygon]) -> Vec<DVec3> {
     used
 }
 
-/// Convex planar rings, each with its plane and area.
+/// Convex planar rings of vertices, each with its plane and area.
 type Pieces = Vec<(Vec<u32>, Plane, f64)>;
 
-/// Takes one face after the other.
+/// Turns faces into polygons, one at a time.
 struct Cleaner<'a> {
     vertices: &'a [DVec3],
     tolerance: f64,
-    /// Rings of the polygons so far, each from its least vertex on.
+    /// Rings of the polygons so far, each starting at its smallest vertex.
     seen: BTreeSet<Vec<u32>>,
     polygons: Vec<Polygon>,
     warnings: Warnings,
@@ -157,7 +156,7 @@ struct Cleaner<'a> {
 
 impl Cleaner<'_> {
     fn add(&mut self, face: &Face, corners: &[u32], two_sided: bool, place: impl Fn() -> String) {
-        let ring = self.without_idle_corners(corners);
+        let ring = self.without_redundant_corners(corners);
         let Some((plane, area)) = self.measure(&ring) else {
             self.warnings.add(WarningKind::ZeroArea, place);
             return;
@@ -190,7 +189,7 @@ impl Cleaner<'_> {
         }
     }
 
-    /// Adds a polygon unless it stands there already.
+    /// Adds a polygon. Returns false if it exists already.
     fn push(&mut self, face: &Face, mut ring: Vec<u32>, plane: Plane, area: f64) -> bool {
         let mut key = ring.clone();
         let least = (0..key.len()).min_by_key(|&i| key[i]).unwrap_or(0);
@@ -212,12 +211,12 @@ impl Cleaner<'_> {
         ring.iter().map(|&v| self.at(v))
     }
 
-    /// The ring without corners that repeat or lie on the line through their neighbours.
-    fn without_idle_corners(&self, ring: &[u32]) -> Vec<u32> {
+    /// The ring without corners that are repeated or on the line through their neighbours.
+    fn without_redundant_corners(&self, ring: &[u32]) -> Vec<u32> {
         let mut kept: Vec<u32> = Vec::with_capacity(ring.len());
         for &corner in ring {
             while let [.., before, last] = *kept
-                && self.is_idle(before, last, corner)
+                && self.is_redundant(before, last, corner)
             {
                 kept.pop();
             }
@@ -225,12 +224,12 @@ impl Cleaner<'_> {
                 kept.push(corner);
             }
         }
-        // Where the end meets the beginning.
+        // The same where the end of the ring meets its start.
         let mut rest = kept.as_slice();
         while let [first, second, .., before, last] = *rest {
-            if self.is_idle(before, last, first) {
+            if self.is_redundant(before, last, first) {
                 rest = &rest[..rest.len() - 1];
-            } else if self.is_idle(last, first, second) {
+            } else if self.is_redundant(last, first, second) {
                 rest = &rest[1..];
             } else {
                 break;
@@ -239,13 +238,13 @@ impl Cleaner<'_> {
         rest.to_vec()
     }
 
-    fn is_idle(&self, before: u32, corner: u32, after: u32) -> bool {
+    fn is_redundant(&self, before: u32, corner: u32, after: u32) -> bool {
         let chord = self.at(after) - self.at(before);
         let off = (self.at(corner) - self.at(before)).cross(chord).length();
         off <= self.tolerance * chord.length()
     }
 
-    /// Plane (Newell) and area of a ring; none if it has no area.
+    /// Plane (Newell's method) and area of a ring, or `None` if it has no area.
     fn measure(&self, ring: &[u32]) -> Option<(Plane, f64)> {
         let first = self.at(*ring.first()?);
         let edges = || self.points(ring).zip(self.points(ring).cycle().skip(1));
@@ -272,14 +271,14 @@ impl Cleaner<'_> {
 
     fn is_planar(&self, ring: &[u32], plane: Plane) -> bool {
         let size = Bounds::of(self.points(ring)).size().length();
-        // Welding moves a corner by a tolerance along each axis.
+        // Welding can move a corner by the tolerance along each axis.
         let slack = (FLATNESS * size).max(4.0 * self.tolerance);
         ring.len() == 3
             || self.points(ring).all(|p| (plane.normal.dot(p) - plane.offset).abs() <= slack)
     }
 
-    /// Whether the ring turns left at every corner, and around only once: then each corner lies
-    /// left of the first edge, and the fan from the first corner never turns back.
+    /// Whether the ring turns left at every corner and goes around once. It goes around once if each corner
+    /// is left of the first edge and the triangle fan from the first corner never turns back.
     fn is_convex(&self, ring: &[u32], plane: Plane) -> bool {
         let left = |a: u32, b: u32, c: u32| {
             let (a, b, c) = (self.at(a), self.at(b), self.at(c));
@@ -291,9 +290,9 @@ impl Cleaner<'_> {
             && (2..n).all(|i| left(ring[0], ring[i - 1], ring[i]))
     }
 
-    /// Triangles that cover a ring, facing as it does.
+    /// Triangles that cover a ring, with the same front.
     fn triangles(&mut self, ring: &[u32], plane: Plane, place: impl FnOnce() -> String) -> Pieces {
-        // The projection along the normal's greatest component keeps the shape.
+        // Projected along the largest component of the normal, so that the shape does not degenerate.
         let facing = plane.normal.abs().max_position();
         let flat: Vec<[f64; 2]> =
             self.points(ring).map(|p| [p[(facing + 1) % 3], p[(facing + 2) % 3]]).collect();

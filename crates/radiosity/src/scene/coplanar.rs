@@ -1,13 +1,13 @@
-//! Polygons that lie in one plane get one plane.
+//! Gives polygons in the same plane exactly the same plane.
 
 use super::scene::{Plane, Polygon};
 
-/// What two unit normals may differ by and still be one.
+/// Components of unit normals that differ by less count as equal.
 const NORMALS: f64 = 1e-9;
 
-/// Gives polygons whose planes differ by no more than rounding the plane of the largest, so that a ray
-/// meets all of them at the same number and the rules for equal distances decide, not rounding.
-/// Planes across an axis are one already, since their corners are welded axis by axis.
+/// Replaces planes that differ only by rounding by the plane of the largest polygon among them. A ray then
+/// meets all of them at exactly the same distance, so the rules for equal distances decide, not rounding.
+/// Axis-aligned polygons share their planes already, since corners are welded for each axis.
 pub(crate) fn share_planes(polygons: &mut [Polygon], tolerance: f64) {
     let slanted = |polygon: &Polygon| polygon.plane.normal.abs().max_element() < 1.0;
     let numbers: Vec<usize> = (0..polygons.len()).filter(|&i| slanted(&polygons[i])).collect();
@@ -26,7 +26,7 @@ pub(crate) fn share_planes(polygons: &mut [Polygon], tolerance: f64) {
     let mut order: Vec<([usize; 4], usize)> = planes.iter().map(rank).zip(0..).collect();
     order.sort_unstable();
     for alike in order.chunk_by(|one, other| one.0 == other.0) {
-        // That of the largest is known best.
+        // The plane of the largest polygon is the most accurate.
         let area = |&(_, i): &([usize; 4], usize)| polygons[numbers[i]].area;
         let largest = alike.iter().max_by(|one, other| area(one).total_cmp(&area(other)));
         let Some(shared) = largest.map(|&(_, i)| planes[i]) else { continue };
@@ -38,7 +38,7 @@ pub(crate) fn share_planes(polygons: &mut [Polygon], tolerance: f64) {
     }
 }
 
-/// The plane seen from the side whose normal's first component that is not zero is positive.
+/// The plane, reversed if the first non-zero component of its normal is negative.
 fn facing_up(plane: Plane) -> Plane {
     let first = plane.normal.to_array().into_iter().find(|&x| x != 0.0);
     if first.is_some_and(|x| x < 0.0) { plane.reversed() } else { plane }
@@ -48,10 +48,10 @@ fn facing_up(plane: Plane) -> Plane {
 mod tests {
     use glam::DVec3;
 
-    use super::super::scene::{Face, Material, Rgb, Scene};
     use super::*;
+    use crate::scene::{Face, Material, Rgb, Scene};
 
-    /// Overlapping triangles in slanted planes, seen from both sides: one plane each, to the bit.
+    /// Overlapping triangles in slanted planes, facing both ways, share one plane to the bit.
     #[test]
     fn slanted_coplanar_polygons_have_one_plane() {
         let (u, v) =

@@ -1,4 +1,4 @@
-//! Why something is not a scene.
+//! Errors of scene files and of faces that do not form a scene.
 
 use std::path::PathBuf;
 
@@ -6,52 +6,52 @@ use glam::DVec3;
 
 use super::scene::{Material, Rgb};
 
-/// Greatest coordinate, metres; farther out f64 no longer resolves what a scene is made of.
+/// Largest allowed coordinate, metres. Beyond it f64 no longer resolves the details of a scene.
 pub(crate) const FARTHEST: f64 = 1e12;
 
-/// Why faces and materials do not make a scene.
+/// Why a scene cannot be read or built.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
-    /// A file that cannot be read.
+    /// A file cannot be read.
     #[error("{}: cannot be read: {source}", path.display())]
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the operating system.
         source: std::io::Error,
     },
-    /// A file that does not say what it should.
+    /// A file has invalid content.
     #[error("{place}: {problem}")]
     InFile {
-        /// File, and line where it is known.
+        /// File, and line if it is known.
         place: String,
-        /// What is wrong there, with the value and what was expected.
+        /// The problem, with the value found and what was expected.
         problem: String,
     },
-    /// Nothing that light could fall on.
+    /// No face has an area.
     #[error("no surface: {faces} faces, none with an area; expected at least one")]
     NoSurface {
         /// Faces given.
         faces: usize,
     },
-    /// More than 32-bit indices can count.
+    /// More corners than 32-bit indices can count.
     #[error("{corners} corners of faces; expected at most {}", u32::MAX / 2)]
     TooMany {
         /// Corners of all faces.
         corners: usize,
     },
-    /// A corner that is nowhere.
+    /// A coordinate is not finite or too large.
     #[error(
         "{place}: corner at ({}, {}, {}); expected finite coordinates of at most {FARTHEST:e} m",
         at.x, at.y, at.z
     )]
     Corner {
-        /// The face.
+        /// Object and number of the face.
         place: String,
-        /// Its corner, world coordinates.
+        /// The corner, world coordinates.
         at: DVec3,
     },
-    /// A face of a material or an object that does not exist.
+    /// A face refers to a material or an object that does not exist.
     #[error("face {face} has {what} {index}; expected less than {count}")]
     Index {
         /// Number of the face, from 1.
@@ -60,10 +60,10 @@ pub enum SceneError {
         what: &'static str,
         /// Its index.
         index: u32,
-        /// How many there are.
+        /// Number of materials or objects.
         count: usize,
     },
-    /// A surface that would send back more than falls on it, or less than nothing.
+    /// A reflectance is not in [0, 1).
     #[error(
         "material \"{material}\": reflectance (Kd) is {} {} {}; expected 0 or more and less than 1",
         value.x, value.y, value.z
@@ -74,7 +74,7 @@ pub enum SceneError {
         /// Its reflectance.
         value: Rgb,
     },
-    /// Negative light.
+    /// An emission is negative or not finite.
     #[error(
         "material \"{material}\": emission (Ke) is {} {} {}; expected finite values, 0 or more",
         value.x, value.y, value.z
@@ -88,7 +88,10 @@ pub enum SceneError {
 }
 
 impl Material {
-    /// Refuses reflectances and emissions that no surface can have.
+    /// Checks that reflectance and emission are physically possible.
+    ///
+    /// # Errors
+    /// [`SceneError::Reflectance`] or [`SceneError::Emission`].
     pub fn check(&self) -> Result<(), SceneError> {
         let (reflectance, emission) = (self.reflectance, self.emission);
         if !(reflectance.cmpge(Rgb::ZERO) & reflectance.cmplt(Rgb::ONE)).all() {

@@ -1,7 +1,7 @@
-//! Material files (MTL) of an OBJ file.
+//! Material files (MTL) of OBJ files, read with tobj.
 //!
-//! Read are `newmtl`, `Kd` (reflectance), `Ke` (emitted radiosity, W/m²) and a parameter of our own:
-//! `virtwall_two_sided 1` says that both sides of a surface reflect and emit. The rest is ignored.
+//! Used are `newmtl`, `Kd` (reflectance), `Ke` (emitted radiosity, W/m²) and an extension:
+//! `virtwall_two_sided 1` means that both sides of a surface reflect and emit. All else is ignored.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -13,15 +13,14 @@ use super::scene::{Material, Rgb};
 use super::text::{self, Reader};
 use super::warnings::{WarningKind, Warnings};
 
-/// Reflectance of a material that states none (no `Kd`), and of the material that stands in for a
-/// missing one.
+/// Reflectance of a material without `Kd`, and of the material used for faces without one.
 pub const DEFAULT_REFLECTANCE: Rgb = Rgb::splat(0.5);
 
-/// Our parameter.
+/// The extension: name of the parameter.
 const TWO_SIDED: &str = "virtwall_two_sided";
 
-/// The material that stands in for a missing one: grey, dark, one-sided.
-pub(crate) fn stand_in() -> Material {
+/// Material for faces without one: grey, not emitting, one-sided.
+pub(crate) fn default_material() -> Material {
     Material {
         name: "default".to_owned(),
         reflectance: DEFAULT_REFLECTANCE,
@@ -30,25 +29,25 @@ pub(crate) fn stand_in() -> Material {
     }
 }
 
-/// Reads material files as tobj comes upon their names, and keeps what went wrong.
+/// Reads material files when tobj finds their names, and collects warnings and the first error.
 #[derive(Default)]
 pub(crate) struct Library {
     read: BTreeSet<PathBuf>,
     pub(crate) warnings: Warnings,
-    pub(crate) problem: Option<SceneError>,
+    pub(crate) error: Option<SceneError>,
 }
 
 impl Library {
-    /// Reads a file, once. One that cannot be read is a warning; one that makes no sense, a problem.
+    /// Reads a file once. An unreadable file gives a warning, invalid content an error.
     pub(crate) fn load(&mut self, path: &Path, reader: Reader) -> MTLLoadResult {
         let nothing = Ok(Default::default());
-        if self.problem.is_some() || !self.read.insert(path.to_owned()) {
+        if self.error.is_some() || !self.read.insert(path.to_owned()) {
             return nothing;
         }
         match text::read(path, reader) {
-            Ok(text) => match plain(path, &text) {
-                Ok(plain) => return tobj::load_mtl_buf(&mut plain.as_bytes()),
-                Err(problem) => self.problem = Some(problem),
+            Ok(text) => match relevant_lines(path, &text) {
+                Ok(relevant) => return tobj::load_mtl_buf(&mut relevant.as_bytes()),
+                Err(error) => self.error = Some(error),
             },
             Err(error) => self
                 .warnings
@@ -57,7 +56,7 @@ impl Library {
         nothing
     }
 
-    /// What tobj read, as a material of ours.
+    /// Converts a material of tobj.
     pub(crate) fn material(&mut self, read: &tobj::Material) -> Material {
         if read.diffuse.is_none() {
             self.warnings.add(WarningKind::MissingReflectance, || format!("\"{}\"", read.name));
@@ -71,10 +70,10 @@ impl Library {
     }
 }
 
-/// The lines that matter, checked here because tobj tells no line numbers, ignores most nonsense
-/// and panics on a `Kd` of two numbers.
-fn plain(path: &Path, text: &str) -> Result<String, SceneError> {
-    let mut plain = String::new();
+/// The lines that are used, checked: tobj reports no line numbers, ignores most invalid values and panics
+/// on a `Kd` with two numbers.
+fn relevant_lines(path: &Path, text: &str) -> Result<String, SceneError> {
+    let mut relevant = String::new();
     let mut name = String::new();
     for (number, line) in text.lines().enumerate() {
         let wrong = |problem: String| text::wrong(path, Some(number + 1), problem);
@@ -85,20 +84,20 @@ fn plain(path: &Path, text: &str) -> Result<String, SceneError> {
                 if name.is_empty() {
                     return Err(wrong("newmtl without a name; expected newmtl NAME".to_owned()));
                 }
-                plain += &format!("newmtl {name}\n");
+                relevant += &format!("newmtl {name}\n");
             }
             Some(key @ ("Kd" | "Ke")) => {
                 let value = colour(key, &words.collect::<Vec<_>>()).map_err(wrong)?;
-                let mut material = Material { name: name.clone(), ..stand_in() };
+                let mut material = Material { name: name.clone(), ..default_material() };
                 match key {
                     "Kd" => material.reflectance = value,
                     _ => material.emission = value,
                 }
                 material.check().map_err(|error| wrong(error.to_string()))?;
-                plain += &format!("{key} {} {} {}\n", value.x, value.y, value.z);
+                relevant += &format!("{key} {} {} {}\n", value.x, value.y, value.z);
             }
             Some(TWO_SIDED) => match words.next() {
-                Some(value @ ("0" | "1")) => plain += &format!("{TWO_SIDED} {value}\n"),
+                Some(value @ ("0" | "1")) => relevant += &format!("{TWO_SIDED} {value}\n"),
                 other => {
                     let value = other.unwrap_or_default();
                     return Err(wrong(format!("{TWO_SIDED} is \"{value}\"; expected 0 or 1")));
@@ -107,10 +106,10 @@ fn plain(path: &Path, text: &str) -> Result<String, SceneError> {
             _ => {}
         }
     }
-    Ok(plain)
+    Ok(relevant)
 }
 
-/// Three numbers, or one for all three colours.
+/// A colour: three numbers, or one number for all three components.
 fn colour(key: &str, words: &[&str]) -> Result<Rgb, String> {
     let expected = |found: &str| format!("{key} is \"{found}\"; expected numbers: red green blue");
     let words: Vec<&str> = words.iter().copied().take_while(|w| !w.starts_with('#')).collect();

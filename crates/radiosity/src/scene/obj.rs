@@ -1,8 +1,8 @@
-//! Wavefront OBJ files, read through tobj.
+//! Wavefront OBJ files, read with tobj.
 //!
-//! Read are `v`, `f`, `o`, `g`, `usemtl` and `mtllib`; the rest is ignored. The text is cut down to
-//! those lines before tobj sees it, for it would refuse a file over what does not matter here, such
-//! as colours of some vertices only or an index of a texture coordinate.
+//! Used are `v`, `f`, `o`, `g`, `usemtl` and `mtllib`. All other lines are removed before tobj reads the
+//! text: it rejects files for errors that do not matter here, such as colours of only some vertices or a
+//! wrong index of a texture coordinate.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -18,19 +18,19 @@ use super::scene::{Face, Material, Scene};
 use super::text::{self, Lines};
 use super::warnings::{WarningKind, Warnings};
 
-/// Reads a scene from an OBJ file and the material files that it names, found relative to it.
+/// Reads a scene from an OBJ file and its material files, whose paths are relative to the OBJ file.
 ///
-/// A material file that does not exist, or a material that no file defines, is a warning: such
-/// faces are grey ([`DEFAULT_REFLECTANCE`](crate::DEFAULT_REFLECTANCE)), one-sided and dark.
+/// A missing material file or an undefined material gives a warning. Such faces are grey
+/// ([`DEFAULT_REFLECTANCE`](crate::DEFAULT_REFLECTANCE)), one-sided and do not emit.
 ///
 /// # Errors
-/// A file that cannot be read, or that says what cannot be meant: the message names file, line and
-/// value, and says what was expected.
+/// A file that cannot be read or has invalid content. The message names file, line and value, and states
+/// what was expected.
 pub fn load_obj(path: &Path) -> Result<(Scene, Warnings), SceneError> {
     load_obj_from(path, &|path| fs::read(path))
 }
 
-/// The same with files whose bytes `reader` gives, which need not lie on a disk.
+/// Like [`load_obj`], but reads files through `reader`.
 ///
 /// # Errors
 /// As for [`load_obj`].
@@ -40,25 +40,25 @@ pub fn load_obj_from(
 ) -> Result<(Scene, Warnings), SceneError> {
     let text = text::read(path, reader)
         .map_err(|source| SceneError::Unreadable { path: path.to_owned(), source })?;
-    let text = plain(&text);
+    let text = relevant_lines(&text);
     let folder = path.parent().unwrap_or(Path::new(""));
     let library = RefCell::new(Library::default());
 
-    let mut lines = Lines { rest: text.as_bytes(), taken: 0 };
+    let mut lines = Lines { rest: text.as_bytes(), read: 0 };
     let loaded = tobj::load_obj_buf(&mut lines, &LoadOptions::default(), |name| {
         library.borrow_mut().load(&folder.join(name), reader)
     });
     let mut library = library.into_inner();
-    if let Some(problem) = library.problem {
-        return Err(problem);
+    if let Some(error) = library.error {
+        return Err(error);
     }
-    let (models, materials) = loaded.map_err(|error| diagnose(path, &text, lines.taken, error))?;
+    let (models, materials) = loaded.map_err(|error| diagnose(path, &text, lines.read, error))?;
     let materials = materials.unwrap_or_default();
     let mut materials: Vec<Material> = materials.iter().map(|m| library.material(m)).collect();
 
     let Faces { faces, objects, warnings } = Faces::of(&models, &materials, &text);
     if warnings.count(WarningKind::MissingMaterial) > 0 {
-        materials.push(mtl::stand_in());
+        materials.push(mtl::default_material());
     }
     let (scene, cleaned) = Scene::new(&faces, materials, objects).map_err(|error| {
         let line = matches!(error, SceneError::Corner { .. }).then(|| far_vertex(&text)).flatten();
@@ -67,43 +67,43 @@ pub fn load_obj_from(
     Ok((scene, library.warnings.and(warnings).and(cleaned)))
 }
 
-/// The lines that matter, without comments; each keeps its number.
-fn plain(text: &str) -> String {
-    let mut plain = String::with_capacity(text.len());
+/// The lines that are used, without comments. Line numbers do not change.
+fn relevant_lines(text: &str) -> String {
+    let mut relevant = String::with_capacity(text.len());
     let mut lines = text.lines();
     while let Some(line) = lines.next() {
         let mut words = line.split_whitespace();
         match words.next() {
-            // Three coordinates and a colour.
+            // Three coordinates and a colour, which is removed.
             Some("v") if words.clone().count() == 6 => {
-                plain += "v";
-                words.take(3).for_each(|coordinate| plain.extend([" ", coordinate]));
+                relevant += "v";
+                words.take(3).for_each(|coordinate| relevant.extend([" ", coordinate]));
             }
             Some("v" | "f") => {
                 let mut skipped = String::new();
                 let mut part = without_comment(line);
                 while let Some(joined) = part.strip_suffix('\\') {
-                    plain.extend([joined, " "]);
+                    relevant.extend([joined, " "]);
                     skipped.push('\n');
                     part = without_comment(lines.next().unwrap_or_default());
                 }
-                plain.extend([part, &skipped]);
+                relevant.extend([part, &skipped]);
             }
             Some(key @ ("o" | "g" | "usemtl" | "mtllib")) => {
-                plain.extend([key, " ", line.trim_start()[key.len()..].trim()]);
+                relevant.extend([key, " ", line.trim_start()[key.len()..].trim()]);
             }
             _ => {}
         }
-        plain.push('\n');
+        relevant.push('\n');
     }
-    plain
+    relevant
 }
 
 fn without_comment(line: &str) -> &str {
     line.split('#').next().unwrap_or_default().trim_end()
 }
 
-/// What tobj read, as faces of ours.
+/// Faces converted from the meshes of tobj.
 struct Faces {
     faces: Vec<Face>,
     objects: Vec<String>,
@@ -111,7 +111,8 @@ struct Faces {
 }
 
 impl Faces {
-    /// Groups of one name are one object. Faces without a material take the one after the last.
+    /// Groups with the same name become one object. Faces without a material get the index after the last
+    /// material.
     fn of(models: &[Model], materials: &[Material], text: &str) -> Faces {
         let mut all =
             Faces { faces: Vec::new(), objects: Vec::new(), warnings: Warnings::default() };
@@ -123,7 +124,7 @@ impl Faces {
             }
             let material = mesh.material_id.unwrap_or(materials.len()) as u32;
             let mut indices = mesh.indices.as_slice();
-            // tobj gives no arities where all faces are triangles.
+            // tobj gives no numbers of corners if all faces are triangles.
             let triangles = std::iter::repeat_n(3, indices.len() / 3);
             let arities: Vec<u32> = match mesh.face_arities.as_slice() {
                 [] => triangles.collect(),
@@ -149,7 +150,7 @@ fn vertex(mesh: &tobj::Mesh, number: u32) -> DVec3 {
     DVec3::from_slice(&mesh.positions[3 * number as usize..])
 }
 
-/// Where a material is asked for that no file defines, if anywhere.
+/// The first `usemtl` line whose material no file defines, as text for a warning.
 fn unknown_material(text: &str, materials: &[Material]) -> String {
     let unknown = text.lines().enumerate().find_map(|(number, line)| {
         let name = line.strip_prefix("usemtl ")?;
@@ -160,7 +161,7 @@ fn unknown_material(text: &str, materials: &[Material]) -> String {
     })
 }
 
-/// What tobj did not understand, and where: it tells neither line nor value.
+/// Turns an error of tobj, which names neither line nor value, into one that does.
 fn diagnose(path: &Path, text: &str, line: usize, error: LoadError) -> SceneError {
     if error == LoadError::FaceVertexOutOfBounds
         && let Some((line, problem)) = wrong_index(text)
@@ -177,7 +178,7 @@ fn diagnose(path: &Path, text: &str, line: usize, error: LoadError) -> SceneErro
     text::wrong(path, Some(line), format!("\"{found}\": {error}; {expected}"))
 }
 
-/// The first face with a vertex that the file lacks; failing that, one that comes after the face.
+/// The first face with a vertex that does not exist or, if there is none, that is defined after the face.
 fn wrong_index(text: &str) -> Option<(usize, String)> {
     let total = text.lines().filter(|line| is_vertex(line)).count() as i64;
     let search = |forward: bool| {
@@ -199,7 +200,7 @@ fn wrong_index(text: &str) -> Option<(usize, String)> {
     search(true).or_else(|| search(false))
 }
 
-/// The first vertex that lies nowhere.
+/// The line of the first vertex with a coordinate that is not finite or too large.
 fn far_vertex(text: &str) -> Option<usize> {
     let far = |line: &str| {
         let mut numbers = line.split_whitespace().skip(1).flat_map(str::parse::<f64>);

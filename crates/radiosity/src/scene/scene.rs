@@ -1,14 +1,14 @@
-//! A scene: welded vertices, convex planar polygons, materials.
+//! A scene: welded vertices, convex planar polygons, materials, media.
 
 use glam::DVec3;
 
 use crate::geometry::Bounds;
 use crate::media::Medium;
 
-/// Red, green, blue: a reflectance (0 to 1), a radiosity (W/m²) or a power (W), as the context says.
+/// Red, green, blue: a reflectance (0 to 1), a radiosity (W/m²) or a power (W), depending on context.
 pub type Rgb = DVec3;
 
-/// What a surface does with light.
+/// How a surface reflects and emits light.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// Name in the material file.
@@ -17,28 +17,28 @@ pub struct Material {
     pub reflectance: Rgb,
     /// Emitted radiosity in W/m², not negative (`Ke`).
     pub emission: Rgb,
-    /// Whether both sides reflect and emit; otherwise the back absorbs what falls on it.
+    /// Whether both sides reflect and emit. Otherwise the back absorbs all light.
     pub two_sided: bool,
 }
 
 /// A plane `normal · p = offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane {
-    /// Unit normal, towards the front; exactly an axis where the polygon is axis-aligned, so that
-    /// ray–plane and ray–grid arithmetic agree to the bit.
+    /// Unit normal of the front. Exactly an axis for an axis-aligned polygon, so that ray–plane and
+    /// ray–grid arithmetic agree to the bit.
     pub normal: DVec3,
     /// Distance of the plane from the scene's origin along the normal, metres.
     pub offset: f64,
 }
 
 impl Plane {
-    /// The same plane seen from behind, negated exactly.
+    /// The same plane facing the other way, negated exactly.
     pub fn reversed(self) -> Plane {
         Plane { normal: -self.normal, offset: -self.offset }
     }
 }
 
-/// A convex planar polygon; its vertices run counter-clockwise seen from the front.
+/// A convex planar polygon. Its vertices run counter-clockwise seen from the front.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polygon {
     /// Indices into [`Scene::vertices`], at least three.
@@ -53,7 +53,7 @@ pub struct Polygon {
     pub area: f64,
 }
 
-/// A face as a file or a program states it, before cleaning.
+/// A face before cleaning, as read from a file.
 #[derive(Clone, Debug)]
 pub struct Face {
     /// Corners in world coordinates, metres, counter-clockwise seen from the front.
@@ -64,29 +64,29 @@ pub struct Face {
     pub object: u32,
 }
 
-/// Surfaces and materials, ready to be meshed. Coordinates are metres, local to [`Scene::origin`].
+/// Clean surfaces and their materials. Coordinates are in metres, local to [`Scene::origin`].
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// Welded vertices, local to `origin`.
     pub vertices: Vec<DVec3>,
-    /// Clean polygons: convex, planar, of positive area, no two alike; a two-sided face stands here
+    /// Clean polygons: convex, planar, with positive area, without duplicates. A two-sided face is stored
     /// twice, back to back.
     pub polygons: Vec<Polygon>,
     /// Materials.
     pub materials: Vec<Material>,
-    /// Names of objects or groups.
+    /// Names of objects and groups.
     pub objects: Vec<String>,
-    /// World position of the local origin: the centre of the bounds, so that f64 stays exact to
-    /// nanometres wherever in the world a scene lies.
+    /// World position of the local origin: the centre of the bounds. Local coordinates stay exact to
+    /// nanometres even if the scene is far from the origin of the world.
     pub origin: DVec3,
     /// Local bounds.
     pub bounds: Bounds,
-    /// What absorbs light on its way.
+    /// Participating media.
     pub media: Vec<Medium>,
 }
 
 impl Scene {
-    /// Corners of a polygon, in order, local coordinates.
+    /// Corners of a polygon in order, local coordinates.
     pub fn corners<'a>(&'a self, polygon: &'a Polygon) -> impl Iterator<Item = DVec3> + 'a {
         polygon.vertices.iter().map(|&v| self.vertices[v as usize])
     }
@@ -96,17 +96,22 @@ impl Scene {
         &self.materials[polygon.material as usize]
     }
 
-    /// Sum of polygon areas, m².
+    /// Material of a polygon, given by its index.
+    pub(crate) fn material_of(&self, polygon: u32) -> &Material {
+        self.material(&self.polygons[polygon as usize])
+    }
+
+    /// Total area of the polygons, m².
     pub fn area(&self) -> f64 {
         self.polygons.iter().map(|p| p.area).sum()
     }
 
-    /// Power that the scene emits, W per colour.
+    /// Emitted power, W.
     pub fn emitted_power(&self) -> Rgb {
         self.polygons.iter().map(|p| self.material(p).emission * p.area).sum()
     }
 
-    /// Length below which two positions count as one: 1e-9 of the scene's diagonal.
+    /// Positions closer than this count as equal: 1e-9 of the diagonal of the scene, metres.
     pub fn tolerance(&self) -> f64 {
         1e-9 * (self.bounds.max - self.bounds.min).length()
     }

@@ -1,37 +1,37 @@
-//! What cleaning a scene dropped, changed or made up: counted, never silent.
+//! Warnings about scene files: what was dropped, changed or replaced, with counts.
 
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// Something odd about a face or a file that can be mended.
+/// A problem in a face or a file that can be repaired.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum WarningKind {
-    /// A material file cannot be read; its materials are missing.
+    /// A material file cannot be read. Its materials are missing.
     MissingMaterialFile,
-    /// A material without a reflectance (`Kd`): takes the default.
+    /// A material without a reflectance (`Kd`): the default is used.
     MissingReflectance,
-    /// A face without a material, or with one that no material file defines: takes the default.
+    /// A face without a material, or with an undefined material: the default is used.
     MissingMaterial,
-    /// A face of fewer than three distinct corners, or without area: dropped.
+    /// A face with fewer than three distinct corners, or without area: dropped.
     ZeroArea,
-    /// A face whose corners do not lie in a plane: cut into triangles.
+    /// A face whose corners are not in one plane: divided into triangles.
     NonPlanar,
-    /// A planar face that is not convex: cut into triangles.
+    /// A planar face that is not convex: divided into triangles.
     Concave,
-    /// A face whose boundary crosses itself: cut into triangles that may not cover what was meant.
+    /// A face whose boundary crosses itself: divided into triangles, which may not cover the intended area.
     SelfCrossing,
-    /// A face that repeats another one, corners and side alike: dropped.
+    /// A face with the same corners and the same front as another one: dropped.
     Duplicate,
 }
 
-/// How often one kind of trouble was met, and where first.
+/// How often one kind of problem occurred, and where first.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Warning {
-    /// What was met.
+    /// Kind of problem.
     pub kind: WarningKind,
-    /// How many times.
+    /// Number of occurrences.
     pub count: usize,
-    /// The first place.
+    /// Place of the first occurrence.
     pub first: String,
 }
 
@@ -52,34 +52,34 @@ impl fmt::Display for Warning {
     }
 }
 
-/// Warnings of a scene, at most one of each kind, in the order of the kinds.
+/// Warnings of a scene: at most one of each kind, in the order of the kinds.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Warnings(BTreeMap<WarningKind, Warning>);
 
 impl Warnings {
-    /// Counts one more; the place is asked for only the first time.
+    /// Counts one more occurrence. `place` is called only for the first one of a kind.
     pub fn add(&mut self, kind: WarningKind, place: impl FnOnce() -> String) {
         let warning =
             self.0.entry(kind).or_insert_with(|| Warning { kind, count: 0, first: place() });
         warning.count += 1;
     }
 
-    /// All of them.
+    /// All warnings.
     pub fn iter(&self) -> impl Iterator<Item = &Warning> {
         self.0.values()
     }
 
-    /// How often this was met.
+    /// Number of occurrences of a kind.
     pub fn count(&self, kind: WarningKind) -> usize {
         self.0.get(&kind).map_or(0, |w| w.count)
     }
 
-    /// Whether there was nothing odd.
+    /// Whether there are no warnings.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// These and the others' counts; the place of a kind met in both is this one's.
+    /// Adds the counts of `others`. Of a kind in both, the place of `self` is kept.
     pub fn and(mut self, others: Warnings) -> Warnings {
         for (kind, other) in others.0 {
             self.0.entry(kind).and_modify(|w| w.count += other.count).or_insert(other);

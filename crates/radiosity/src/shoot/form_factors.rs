@@ -1,19 +1,19 @@
-//! Form factors while the pixels that make them up are counted.
+//! Form factors of patches, summed over the pixels that hit them.
 
 use super::hemisphere::Hemisphere;
 use crate::shoot::bundle::WIDTH;
 
-/// A form factor for each of some places: the sum of the weights of the pixels that fell there.
+/// One form factor for each place (a patch, the backs, the outside, a side): the sum of the weights of the
+/// pixels whose rays end there.
 pub(crate) enum FormFactors<'a> {
-    /// Of pixels of one weight it is enough to count them; `sums` holds the sum of so many of them,
-    /// added one by one.
+    /// Pixels of equal weight are only counted. `sums[n]` is the sum of `n` weights, added one by one.
     Counted { pixels: Vec<u32>, sums: &'a [f64] },
-    /// Pixels added one by one; unequal weights are such that the order does not matter.
+    /// Pixels are added one by one. Unequal weights are rounded so that the order does not matter.
     Summed { sums: Vec<f64>, weights: &'a [f64] },
 }
 
 impl<'a> FormFactors<'a> {
-    /// Counted where that will do.
+    /// Counted if all pixels have the same weight.
     pub(crate) fn new(places: usize, hemisphere: &'a Hemisphere) -> FormFactors<'a> {
         match &hemisphere.sums {
             Some(sums) => FormFactors::Counted { pixels: vec![0; places], sums },
@@ -21,12 +21,12 @@ impl<'a> FormFactors<'a> {
         }
     }
 
-    /// Always one by one: slow, obvious, the same to the bit.
+    /// Always added one by one: slower, simpler, the same to the bit.
     pub(crate) fn one_by_one(places: usize, hemisphere: &'a Hemisphere) -> FormFactors<'a> {
         FormFactors::Summed { sums: vec![0.0; places], weights: &hemisphere.weights }
     }
 
-    /// Pixels of a bundle, a bit each, fell at a place.
+    /// Adds pixels of a bundle, one bit each, to a place.
     #[inline]
     pub(crate) fn add(&mut self, place: usize, bundle: usize, rays: u64) {
         match self {

@@ -1,64 +1,68 @@
-//! The hemisphere of directions over a source: a pixel, a ray, a bit of the mask (§3.2).
-
-use std::f64::consts::{PI, TAU};
+//! The hemisphere of directions over an emitter (§3.2): each pixel has a ray and a bit of the mask.
 
 use glam::DVec3;
 use thiserror::Error;
 
+use super::directions::{concentric, concentric_pixel, equal, fibonacci, hemicube, polar};
 use super::mask::Mask;
 use crate::geometry::Bounds;
 use crate::shoot::bundle::{Bundles, LANES, WIDTH};
 
-/// How the pixels of a hemisphere are laid out.
+/// How the directions of a hemisphere are distributed.
 ///
-/// Choice C1: RR-3008 says "a hemisphere" and leaves its pixels open. All sets but the hemicube are
-/// weighted by the cosine, so that a pixel is worth the same form factor everywhere.
+/// Choice C1: RR-3008 does not say how its hemisphere is divided into pixels. All sets but the hemicube are
+/// cosine-weighted, so that all pixels have the same form factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HemisphereKind {
-    /// A Fibonacci spiral on the unit disc, lifted to the hemisphere: the most even of these sets.
+    /// A Fibonacci spiral on the unit disc, projected up onto the hemisphere: the most even of these sets.
     Fibonacci,
-    /// The five half-faces of a cube around the source, weighted by delta form factors.
+    /// The upper half of a cube around the emitter, weighted by delta form factors.
     Hemicube,
-    /// Rings of equal area on the disc, cut into equal sectors.
+    /// Rings of equal area on the disc, divided into equal sectors.
     Polar,
-    /// A square of pixels mapped onto the disc ring by ring (Shirley and Chiu).
+    /// A square of pixels mapped onto the disc (concentric map, Shirley and Chiu 1997).
     Concentric,
 }
 
-/// Directions over a source and the form factor that each stands for.
+/// Directions over an emitter, and the form factor of each.
 #[derive(Clone, Debug)]
 pub struct Hemisphere {
-    /// Unit directions in the source's frame, z along its normal; neighbours stand together, 64 to a
-    /// word of a mask.
+    /// Unit directions in the frame of the emitter, z along its normal. Neighbours are stored together: the 64
+    /// pixels of each word of a mask form a bundle.
     pub directions: Vec<DVec3>,
+    /// The same directions for the fast path.
     pub(crate) bundles: Bundles,
-    /// Form factor of each pixel; they sum to 1.
+    /// Form factor of each pixel. They sum to 1.
     pub weights: Vec<f64>,
-    /// Where all pixels have one weight: the sum of none, one, two and so on of them, added one by one.
+    /// If all pixels have the same weight: the sums of 0, 1, 2, ... of them, added one by one.
     pub(crate) sums: Option<Vec<f64>>,
-    /// Whether the set is turned about the normal by an angle of the source's own.
+    /// Whether the set is rotated about the normal by an angle derived from the position of the emitter.
     pub rotated: bool,
-    /// Whether it is laid by the source's place in the scene rather than by the axes: see [`Hemisphere::by_axes`].
-    by_place: bool,
+    /// Whether it is oriented by the position of the emitter instead of the axes: see [`Hemisphere::by_axes`].
+    by_position: bool,
 }
 
-/// A number of pixels that a kind of hemisphere cannot have.
+/// A number of pixels that is not possible for a kind of hemisphere.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("{pixels} pixels do not make a {kind:?} hemisphere; expected {expected}")]
 pub struct HemisphereError {
-    /// What was asked for.
+    /// Requested kind.
     pub kind: HemisphereKind,
-    /// What was asked for.
+    /// Requested number of pixels.
     pub pixels: u32,
-    /// What would do.
+    /// Possible numbers.
     pub expected: String,
 }
 
-/// The most pixels that a hemisphere may have; a mask of so many takes 2 MiB.
+/// Largest number of pixels of a hemisphere. Its mask takes 2 MiB.
 pub const MOST_PIXELS: u32 = 1 << 24;
 
 impl Hemisphere {
-    /// A hemisphere of `pixels` pixels; a hemicube takes as many of them as fill its faces.
+    /// A hemisphere of `pixels` pixels. A hemicube uses the largest number, up to `pixels`, that fills its
+    /// faces.
+    ///
+    /// # Errors
+    /// A number of pixels that is not possible for this kind.
     pub fn new(
         kind: HemisphereKind,
         pixels: u32,
@@ -90,7 +94,7 @@ impl Hemisphere {
         Ok(Hemisphere::of(&directions, &weights, rotated))
     }
 
-    /// Bin `bin` of the `n` × `n` of a concentric square of directions, with `side` × `side` rays.
+    /// The `side` × `side` rays of bin `bin` of the `n` × `n` bins of a concentric map.
     pub(crate) fn bin_of_square(n: u32, bin: u32, side: u32) -> Hemisphere {
         let row =
             |j: u32| (0..side).map(move |i| (bin / n * side + j) * n * side + bin % n * side + i);
@@ -99,7 +103,7 @@ impl Hemisphere {
         Hemisphere::of(&directions, &weights, false).by_axes()
     }
 
-    /// A hemisphere of these directions, put in order.
+    /// A hemisphere of these directions, sorted into bundles.
     fn of(directions: &[DVec3], weights: &[f64], rotated: bool) -> Hemisphere {
         let mut order: Vec<u32> = (0..directions.len() as u32).collect();
         group(&mut order, directions);
@@ -114,13 +118,13 @@ impl Hemisphere {
             std::iter::once(0.0).chain(weights.iter().map(add)).collect()
         });
         let bundles = Bundles::new(&directions);
-        Hemisphere { bundles, directions, weights, sums, rotated, by_place: true }
+        Hemisphere { bundles, directions, weights, sums, rotated, by_position: true }
     }
 
-    /// The same directions laid over each source by the axes. As made they are laid by where it lies from
-    /// the scene's centre, so that they turn with the scene: a turned scene gets the same rays, turned.
+    /// The same directions, oriented by the coordinate axes. By default they are oriented by the position of
+    /// the emitter relative to the centre of the scene, so that a rotated scene gets the same rays, rotated.
     pub fn by_axes(self) -> Hemisphere {
-        Hemisphere { by_place: false, ..self }
+        Hemisphere { by_position: false, ..self }
     }
 
     /// Number of pixels.
@@ -128,7 +132,7 @@ impl Hemisphere {
         self.directions.len() as u32
     }
 
-    /// Form factor of all true pixels of a mask.
+    /// Sum of the form factors of the true pixels of a mask.
     pub fn form_factor(&self, mask: &Mask) -> f64 {
         match &self.sums {
             Some(sums) => sums[mask.count() as usize],
@@ -136,31 +140,38 @@ impl Hemisphere {
         }
     }
 
-    /// Tangent, bitangent and normal over a source with its centre at `centre`. Whoever knows the
-    /// centre and the normal, exactly, gets the same frame: a mask's receiver casts the same rays.
+    /// Tangent, bitangent and normal of an emitter. They depend only on its centre and its normal, so that
+    /// the receiver of a mask casts exactly the same rays.
     pub fn frame(&self, centre: DVec3, normal: DVec3) -> [DVec3; 3] {
         let outwards = centre - normal * centre.dot(normal);
-        let tangent = if self.by_place && outwards.length() > 1e-6 * centre.length() {
+        let tangent = if self.by_position && outwards.length() > 1e-6 * centre.length() {
             outwards.normalize()
         } else {
-            across(normal)
+            perpendicular(normal)
         };
         let bitangent = normal.cross(tangent);
-        let (cos, sin) = match (self.rotated, self.by_place) {
+        let (cos, sin) = match (self.rotated, self.by_position) {
             (false, _) => (1.0, 0.0),
-            (true, false) => turn(&centre.to_array()),
-            // What does not change when the scene is turned, rounding apart.
+            (true, false) => angle_from(&centre.to_array()),
+            // Lengths that do not change when the scene is rotated, except by rounding.
             (true, true) => {
                 let lengths = [centre.length(), centre.dot(normal)];
-                turn(&lengths.map(|length| f64::from(length as f32)))
+                angle_from(&lengths.map(|length| f64::from(length as f32)))
             }
         };
         [tangent * cos + bitangent * sin, bitangent * cos - tangent * sin, normal]
     }
+
+    /// The direction of a pixel, rotated into the frame of an emitter.
+    pub(crate) fn direction(&self, frame: [DVec3; 3], pixel: u32) -> DVec3 {
+        let [tangent, bitangent, normal] = frame;
+        let d = self.directions[pixel as usize];
+        tangent * d.x + bitangent * d.y + normal * d.z
+    }
 }
 
-/// A unit vector across a normal, by the axis that is least along it.
-fn across(normal: DVec3) -> DVec3 {
+/// A unit vector perpendicular to a normal, derived from the axis with the smallest component of it.
+fn perpendicular(normal: DVec3) -> DVec3 {
     let least = if normal.x.abs() <= normal.y.abs() && normal.x.abs() <= normal.z.abs() {
         DVec3::X
     } else if normal.y.abs() <= normal.z.abs() {
@@ -171,10 +182,9 @@ fn across(normal: DVec3) -> DVec3 {
     least.cross(normal).normalize()
 }
 
-/// Cosine and sine of an angle derived from a source's coordinates: the direction of a pseudo-random
-/// point of the unit disc, so that only exactly rounded operations are needed and every machine
-/// finds the same bits.
-fn turn(coordinates: &[f64]) -> (f64, f64) {
+/// Cosine and sine of an angle derived from coordinates. It is the direction of a pseudo-random point of the
+/// unit disc: this needs only exactly rounded operations, so that all machines compute the same bits.
+fn angle_from(coordinates: &[f64]) -> (f64, f64) {
     let mut state = coordinates.iter().fold(0x9e37_79b9_7f4a_7c15, |state, coordinate| {
         scramble(state ^ (coordinate + 0.0).to_bits())
     });
@@ -197,8 +207,8 @@ fn scramble(state: u64) -> u64 {
     z ^ (z >> 31)
 }
 
-/// Put pixels in an order in which each run of 64 lies together on the disc, and in it each run of 8:
-/// halve the longer extent at a multiple of that until no more are left.
+/// Sorts pixels so that each run of 64, and in it each run of 8, is compact on the disc: recursively halves
+/// the longer extent at a multiple of 64 or 8.
 fn group(pixels: &mut [u32], directions: &[DVec3]) {
     if pixels.len() <= LANES {
         pixels.sort_unstable();
@@ -213,97 +223,6 @@ fn group(pixels: &mut [u32], directions: &[DVec3]) {
     let (low, high) = pixels.split_at_mut(half);
     group(low, directions);
     group(high, directions);
-}
-
-fn equal(directions: Vec<DVec3>) -> (Vec<DVec3>, Vec<f64>) {
-    let weights = vec![1.0 / directions.len() as f64; directions.len()];
-    (directions, weights)
-}
-
-/// A point of the unit disc lifted onto the hemisphere: equal areas become equal form factors
-/// (Nusselt's analogue).
-fn lifted(r: f64, phi: f64) -> DVec3 {
-    DVec3::new(r * libm::cos(phi), r * libm::sin(phi), (1.0 - r * r).max(0.0).sqrt())
-}
-
-fn fibonacci(pixels: u32) -> Vec<DVec3> {
-    let golden_turn = TAU * (3.0 - 5f64.sqrt()) / 2.0;
-    let n = f64::from(pixels);
-    (0..pixels)
-        .map(f64::from)
-        .map(|i| lifted(((i + 0.5) / n).sqrt(), (i * golden_turn) % TAU))
-        .collect()
-}
-
-fn polar(pixels: u32) -> Vec<DVec3> {
-    // Rings and sectors such that pixels are about square: four times as many sectors as rings,
-    // or as near to that as the divisors of the number allow.
-    let wanted = f64::from(pixels / 4).sqrt().max(1.0) as u32;
-    let rings = (1..=wanted).rev().find(|rings| pixels.is_multiple_of(*rings)).unwrap_or(1);
-    let sectors = pixels / rings;
-    let pixel = |i: u32| {
-        let (ring, sector) = (f64::from(i / sectors), f64::from(i % sectors));
-        let r = ((ring + 0.5) / f64::from(rings)).sqrt();
-        lifted(r, TAU * (sector + 0.5) / f64::from(sectors))
-    };
-    (0..pixels).map(pixel).collect()
-}
-
-fn concentric(side: u32) -> Vec<DVec3> {
-    (0..side * side).map(|i| concentric_pixel(side, i)).collect()
-}
-
-fn concentric_pixel(side: u32, i: u32) -> DVec3 {
-    let at = |i: u32| 2.0 * (f64::from(i) + 0.5) / f64::from(side) - 1.0;
-    let (x, y) = (at(i % side), at(i / side));
-    if x == 0.0 && y == 0.0 {
-        DVec3::Z
-    } else if x.abs() > y.abs() {
-        lifted(x, PI / 4.0 * (y / x))
-    } else {
-        lifted(y, PI / 2.0 - PI / 4.0 * (x / y))
-    }
-}
-
-/// Where the concentric map has a direction, given by its two components across the normal, from: a point
-/// of the square from -1 to 1.
-pub(crate) fn unlifted(x: f64, y: f64) -> [f64; 2] {
-    let r = (x * x + y * y).sqrt();
-    if r == 0.0 {
-        [0.0; 2]
-    } else if x.abs() > y.abs() {
-        let r = r.copysign(x);
-        [r, r * libm::atan(y / x) * 4.0 / PI]
-    } else {
-        let r = r.copysign(y);
-        [r * libm::atan(x / y) * 4.0 / PI, r]
-    }
-}
-
-/// Top face of side × side pixels, then four half-faces (Cohen and Greenberg 1985).
-fn hemicube(side: u32) -> (Vec<DVec3>, Vec<f64>) {
-    let half = side / 2;
-    let at = |i: u32| 2.0 * (f64::from(i) + 0.5) / f64::from(side) - 1.0;
-    let top = (0..side * side).map(|i| DVec3::new(at(i % side), at(i / side), 1.0));
-    let sides = (0..4).flat_map(|face| {
-        (0..side * half).map(move |i| {
-            let (along, up) = (at(i % side), at(half + i / side));
-            match face {
-                0 => DVec3::new(1.0, along, up),
-                1 => DVec3::new(-along, 1.0, up),
-                2 => DVec3::new(-1.0, -along, up),
-                _ => DVec3::new(along, -1.0, up),
-            }
-        })
-    });
-    let points: Vec<DVec3> = top.chain(sides).collect();
-    // Delta form factor up to a constant: the height above the source's plane over distance⁴.
-    let raw: Vec<f64> = points.iter().map(|p| p.z / p.length_squared().powi(2)).collect();
-    let sum: f64 = raw.iter().sum();
-    // Multiples of 2⁻⁵³: their sums are exact, in whatever order pixels are added up.
-    let unit = 2f64.powi(53);
-    let weights = raw.iter().map(|w| (w / sum * unit).round() / unit).collect();
-    (points.iter().map(|p| p.normalize()).collect(), weights)
 }
 
 #[cfg(test)]
@@ -356,9 +275,9 @@ mod tests {
         }
     }
 
-    /// By place, frames turn with the scene about its centre.
+    /// Frames oriented by position rotate with the scene about its centre.
     #[test]
-    fn frames_by_place_turn_with_the_scene() {
+    fn frames_by_position_rotate_with_the_scene() {
         let hemisphere = Hemisphere::new(HemisphereKind::Fibonacci, 16, true).unwrap();
         let turned = |p: DVec3| DVec3::new(-p.y, p.x, p.z);
         for (centre, normal) in [([0.3, 1.7, -0.2], DVec3::Z), ([1.1, -0.4, 0.9], -DVec3::X)] {

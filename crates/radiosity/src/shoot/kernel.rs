@@ -1,4 +1,4 @@
-//! Shooting a source through a local environment (§3.3, §4.2.3).
+//! `shoot`: the rays of an emitter through a local environment, a bundle of 64 at a time.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch};
@@ -10,98 +10,96 @@ use super::mask::Mask;
 use super::plain::cast_pixel;
 use super::shot::{Emitter, Shot, Tally};
 use super::work::Operation;
-use crate::geometry::Waiting;
+use crate::geometry::VisitStack;
 use crate::mesh::{LocalEnvironment, Side, Space};
-use crate::shoot::bundle::{Lattice, Nearest, Rays, WIDTH, Walk, land};
+use crate::shoot::bundle::{GridView, Nearest, Rays, WIDTH, Walk, find_patches};
 
-/// Cast the rays of all true pixels of `mask` from `source` through `environment`.
+/// Casts the rays of all true pixels of `mask` from `emitter` through `environment`.
 ///
-/// Paper: a ray that hits an object clears its pixel; each neighbour gets a copy of the mask with
-/// the pixels whose rays enter it. Of a source from elsewhere, `mask` holds the pixels whose rays
-/// were not hit on their way here.
+/// Paper: §3.3, §4.2.3. A ray that hits an object clears its pixel; each neighbour gets a copy of the mask
+/// with the pixels whose rays enter it. For an emitter of another environment, `mask` has the pixels whose
+/// rays have not hit anything so far.
 ///
-/// The rays of a word of the mask go together: first they find what they hit, then they walk through
-/// the grid to count what the virtual processor would have done. Where polygons are so small that a
-/// bundle meets very many, its rays go one by one. [`shoot_plainly`] is the obvious twin. In a scene with
-/// participating media all rays go one by one.
-///
-/// [`shoot_plainly`]: crate::shoot_plainly
+/// The rays of one word of the mask form a bundle. First their nearest hits are found. Then they walk
+/// through the grid, to count the operations of the simulated processor. If the polygons are so small that
+/// a bundle meets too many of them, its rays are cast one by one. In a scene with participating media all
+/// rays are. [`shoot_plainly`](crate::shoot_plainly) is the simple version that gives the same result.
 #[doc(alias = "compute_illumination")]
 pub fn shoot(
     space: &Space,
     environment: &LocalEnvironment,
     hemisphere: &Hemisphere,
-    source: &Emitter,
+    emitter: &Emitter,
     mask: &Mask,
 ) -> Shot {
     if !space.scene.media.is_empty() {
-        return shoot_dimmed(space, environment, hemisphere, source, mask);
+        return shoot_dimmed(space, environment, hemisphere, emitter, mask);
     }
-    dispatch!(Level::new(), simd => shoot_on(simd, space, environment, hemisphere, source, mask))
+    dispatch!(Level::new(), simd => shoot_on(simd, space, environment, hemisphere, emitter, mask))
 }
 
-/// [`shoot`] with the vector instructions that the host has.
+/// [`shoot`] with a given set of vector instructions.
 #[inline(always)]
 fn shoot_on<S: Simd>(
     simd: S,
     space: &Space,
     environment: &LocalEnvironment,
     hemisphere: &Hemisphere,
-    source: &Emitter,
+    emitter: &Emitter,
     mask: &Mask,
 ) -> Shot {
-    let frame = hemisphere.frame(source.centre, source.normal);
+    let frame = hemisphere.frame(emitter.centre, emitter.normal);
     let form_factors = FormFactors::new(Tally::places(environment), hemisphere);
-    let mut volley = Volley {
+    let mut shot = BundleShot {
         space,
         environment,
-        own_polygon: source.polygon,
-        own_piece: environment.piece(source.polygon),
-        rays: Rays::from(source.centre, frame),
+        own_polygon: emitter.polygon,
+        own_piece: environment.piece(emitter.polygon),
+        rays: Rays::from(emitter.centre, frame),
         nearest: Nearest::new(),
-        waiting: Waiting::default(),
-        walk: Walk::new(Lattice::new(&space.grid, environment.block, source.centre)),
+        stack: VisitStack::default(),
+        walk: Walk::new(GridView::new(&space.grid, environment.block, emitter.centre)),
         tally: Tally::new(environment, mask, form_factors),
     };
     for (bundle, &word) in mask.words().iter().enumerate().filter(|&(_, &word)| word != 0) {
-        volley.rays.aim(simd, &hemisphere.bundles, bundle);
-        if volley.find_nearest(simd, word) {
-            volley.count(simd, bundle, word);
+        shot.rays.aim(simd, &hemisphere.bundles, bundle);
+        if shot.find_nearest(simd, word) {
+            shot.count(simd, bundle, word);
         } else {
-            volley.one_by_one(bundle, word);
+            shot.one_by_one(bundle, word);
         }
     }
-    volley.tally.finish()
+    shot.tally.finish()
 }
 
-/// Polygons that a bundle is tested against before its rays go one by one: some two thirds of what
-/// makes both cost the same, where a ray alone is tested against a dozen.
+/// Number of polygons tested for a bundle before its rays are cast one by one. That is about two thirds of
+/// the number at which both cost the same, if a single ray is tested against a dozen polygons.
 const MOST_POLYGONS: usize = 128;
 
-/// A shot under way.
-struct Volley<'a> {
+/// A shot in progress.
+struct BundleShot<'a> {
     space: &'a Space,
     environment: &'a LocalEnvironment,
-    /// The source's own polygon, which its rays cannot hit.
+    /// The polygon of the emitter, which its rays cannot hit.
     own_polygon: u32,
-    /// The same among those of the environment.
+    /// Its piece in the environment, if it has one.
     own_piece: Option<u32>,
     rays: Rays,
     nearest: Nearest,
-    waiting: Waiting,
+    stack: VisitStack,
     walk: Walk<'a>,
     tally: Tally<'a>,
 }
 
-impl Volley<'_> {
-    /// Test the bundle against the polygons that it can meet, near ones first; whether they were few
-    /// enough.
+impl BundleShot<'_> {
+    /// Tests the bundle against the polygons that it can meet, near ones first. Returns false if there are
+    /// too many.
     #[inline(always)]
     fn find_nearest<S: Simd>(&mut self, simd: S, cast: u64) -> bool {
-        let Volley { space, environment, own_piece, rays, nearest, waiting, .. } = self;
+        let BundleShot { space, environment, own_piece, rays, nearest, stack, .. } = self;
         nearest.clear(simd, cast);
         let mut polygons = 0;
-        environment.tree.visit(simd, &rays.pyramid, waiting, |piece| {
+        environment.tree.visit(simd, &rays.pyramid, stack, |piece| {
             if Some(piece) != *own_piece {
                 nearest.meet(simd, rays, &space.facets, environment.polygon(piece), piece);
             }
@@ -110,19 +108,19 @@ impl Volley<'_> {
         })
     }
 
-    /// Cast the rays of a bundle plainly.
+    /// Casts the rays of a bundle one by one.
     fn one_by_one(&mut self, bundle: usize, word: u64) {
-        let Volley { space, environment, own_polygon, rays, tally, .. } = self;
+        let BundleShot { space, environment, own_polygon, rays, tally, .. } = self;
         for lane in (0..WIDTH).filter(|lane| word >> lane & 1 == 1) {
             let pixel = (bundle * WIDTH + lane) as u32;
             cast_pixel(space, environment, &rays.ray(lane), *own_polygon, pixel, tally);
         }
     }
 
-    /// Walk the rays of a bundle, and count what they do and how they end.
+    /// Walks the rays of a bundle through the grid, and counts their operations and how they end.
     #[inline(always)]
     fn count<S: Simd>(&mut self, simd: S, bundle: usize, word: u64) {
-        let Volley { environment, rays, nearest, walk, tally, .. } = self;
+        let BundleShot { environment, rays, nearest, walk, tally, .. } = self;
         let walked = walk.run(simd, rays, nearest, word);
         tally.work.count(Operation::Ray, u64::from(word.count_ones()));
         tally.work.count(Operation::CellStep, walked.steps);
@@ -131,7 +129,7 @@ impl Volley<'_> {
         {
             tally.leave(side, bundle, left);
         }
-        land(simd, rays, nearest, environment, walked.ended, |patch, rays| {
+        find_patches(simd, rays, nearest, environment, walked.ended, |patch, rays| {
             tally.hit(patch, bundle, rays);
         });
     }
@@ -139,14 +137,14 @@ impl Volley<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::hemisphere::HemisphereKind;
-    use super::super::plain::shoot_plainly;
     use super::*;
     use crate::mesh::{Patch, PatchSize};
     use crate::scene::{Face, Material, Rgb, Scene};
+    use crate::shoot::hemisphere::HemisphereKind;
+    use crate::shoot::plain::shoot_plainly;
     use glam::DVec3;
 
-    /// A box seen from inside, with a slanted triangle and a plate in it.
+    /// A box seen from inside, with a slanted triangle and a plate inside.
     fn space() -> Space {
         let corner = |i: usize| DVec3::new((i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64);
         let sides =
@@ -168,13 +166,13 @@ mod tests {
         Space::new(scene.expect("a closed box").0, [5, 4, 3])
     }
 
-    /// Shoots every patch through its own of two environments and on through the other.
+    /// Shoots every patch through its own environment, and then through the other one.
     fn all_shots<S: Simd>(simd: S, space: &Space, environments: &[LocalEnvironment; 2]) {
         for kind in [HemisphereKind::Fibonacci, HemisphereKind::Concentric] {
             let hemisphere = Hemisphere::new(kind, 256, false).expect("a square");
             for (from, own) in environments.iter().enumerate() {
                 for (patch, &Patch { centre, polygon, .. }) in own.patches.iter().enumerate() {
-                    let source = Emitter {
+                    let emitter = Emitter {
                         environment: from as u32,
                         patch: patch as u32,
                         polygon,
@@ -185,9 +183,9 @@ mod tests {
                     };
                     let shoot_through = |environment: &LocalEnvironment, mask: &Mask| {
                         let shot =
-                            || shoot_on(simd, space, environment, &hemisphere, &source, mask);
+                            || shoot_on(simd, space, environment, &hemisphere, &emitter, mask);
                         let shot = simd.vectorize(shot);
-                        let plain = shoot_plainly(space, environment, &hemisphere, &source, mask);
+                        let plain = shoot_plainly(space, environment, &hemisphere, &emitter, mask);
                         assert!(shot == plain, "patch {patch} of {from}");
                         shot
                     };
@@ -200,7 +198,7 @@ mod tests {
         }
     }
 
-    /// Hosts differ in their vector instructions; rays end in the same places on all of them.
+    /// Results do not depend on the vector instructions of the host.
     #[test]
     fn all_vector_instructions_shoot_as_single_rays_do() {
         let space = space();

@@ -1,9 +1,11 @@
-//! The visibility mask of §3.2.
+//! The visibility mask of an emitter (§3.2): one bit for each pixel of its hemisphere.
 
 use crate::media::DepthBits;
 
-/// One bit a pixel of the hemisphere; true means that the source is still visible through it. In a scene
-/// with participating media one integer a pixel: how much they dim what is visible.
+/// One bit for each pixel of a hemisphere. True means that nothing has blocked the ray of the pixel so far.
+/// In a scene with participating media, each pixel also has an integer: the optical depth so far.
+///
+/// Paper: §3.2, Figure 2.
 #[doc(alias = "Figure 2")]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mask {
@@ -12,7 +14,7 @@ pub struct Mask {
     depths: Option<Box<Depths>>,
 }
 
-/// Steps of optical depth by pixel.
+/// Optical depth of each pixel, in steps.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Depths {
     bits: DepthBits,
@@ -20,7 +22,7 @@ struct Depths {
 }
 
 impl Mask {
-    /// A mask with every pixel true: what a local source starts with (§3.3).
+    /// A mask with all pixels true: the initial mask of a local source (§3.3).
     pub fn all(pixels: u32) -> Mask {
         let mut words = vec![u64::MAX; words_for(pixels)];
         if let Some(last) = words.last_mut() {
@@ -29,20 +31,20 @@ impl Mask {
         Mask::of(words, pixels)
     }
 
-    /// A mask with every pixel false.
+    /// A mask with all pixels false.
     pub fn none(pixels: u32) -> Mask {
         Mask::of(vec![0; words_for(pixels)], pixels)
     }
 
-    /// A mask from its words, lowest pixel in the lowest bit of the first word; `None` when their
-    /// number does not fit the pixels or a bit beyond the last pixel is set.
+    /// A mask from its words, with the first pixel in the lowest bit of the first word. `None` if the number
+    /// of words does not fit the pixels or if a bit after the last pixel is set.
     pub fn from_words(words: Vec<u64>, pixels: u32) -> Option<Mask> {
         let fits = words.len() == words_for(pixels);
         let spilled = words.last().is_some_and(|last| last & !last_word(pixels) != 0);
         (fits && !spilled).then(|| Mask::of(words, pixels))
     }
 
-    /// A mask from its integers; `None` when one is beyond those of so many bits.
+    /// A mask from its optical depths in steps. `None` if one of them does not fit in `bits`.
     pub fn from_steps(steps: Vec<u16>, bits: DepthBits) -> Option<Mask> {
         if steps.iter().any(|&steps| steps > bits.hidden()) {
             return None;
@@ -58,42 +60,42 @@ impl Mask {
         Mask { words, pixels, depths: None }
     }
 
-    /// The same with an integer a pixel, for media; nothing has dimmed it so far.
+    /// The same mask with optical depths, all zero.
     pub fn with_depths(self, bits: DepthBits) -> Mask {
         let steps = |pixel| if self.get(pixel) { 0 } else { bits.hidden() };
         let steps = (0..self.pixels).map(steps).collect();
         Mask { depths: Some(Box::new(Depths { bits, steps })), ..self }
     }
 
-    /// The integers by pixel, if it has any, and their size.
+    /// Optical depth of each pixel in steps, and the size of these integers, if the mask has them.
     pub fn steps(&self) -> Option<(&[u16], DepthBits)> {
         self.depths.as_ref().map(|depths| (depths.steps.as_slice(), depths.bits))
     }
 
-    /// The size of its integers, if it has any.
+    /// The size of the optical depths, if the mask has them.
     pub fn depth_bits(&self) -> Option<DepthBits> {
         self.depths.as_ref().map(|depths| depths.bits)
     }
 
-    /// Bits that a pixel takes.
+    /// Number of bits per pixel.
     pub fn bits_a_pixel(&self) -> u32 {
         self.depth_bits().map_or(1, DepthBits::bits)
     }
 
-    /// Optical depth that light through a true pixel has come through.
+    /// Optical depth along the ray of a true pixel so far.
     pub fn depth(&self, pixel: u32) -> f64 {
         let depth = |depths: &Depths| f64::from(depths.steps[pixel as usize]) * depths.bits.step();
         self.depths.as_deref().map_or(0.0, depth)
     }
 
-    /// What is left of the light through a true pixel.
+    /// Fraction of the light that is left along the ray of a true pixel.
     pub fn transmittance(&self, pixel: u32) -> f64 {
         let left = |depths: &Depths| depths.bits.transmittance(depths.steps[pixel as usize]);
         self.depths.as_deref().map_or(1.0, left)
     }
 
-    /// Make a pixel true with the steps nearest to an optical depth, and tell what is then left of its
-    /// light: nothing, and the pixel stays false, where there are no such steps.
+    /// Makes a pixel true with the number of steps nearest to an optical depth, and returns the fraction of
+    /// light that is left. Beyond the last step the pixel stays false and nothing is left.
     pub(crate) fn set_depth(&mut self, pixel: u32, depth: f64) -> f64 {
         if let Some(depths) = &mut self.depths {
             let Some(steps) = depths.bits.steps(depth) else { return 0.0 };
@@ -103,7 +105,7 @@ impl Mask {
         self.transmittance(pixel)
     }
 
-    /// The words, lowest pixel first.
+    /// The words, first pixel first.
     pub fn words(&self) -> &[u64] {
         &self.words
     }
@@ -118,12 +120,12 @@ impl Mask {
         self.words[i as usize / 64] >> (i % 64) & 1 == 1
     }
 
-    /// Make pixel `i` true.
+    /// Makes pixel `i` true.
     pub fn set(&mut self, i: u32) {
         self.words[i as usize / 64] |= 1 << (i % 64);
     }
 
-    /// Make the pixels true whose bits are set in word `word`.
+    /// Makes the pixels of word `word` true whose bits are set.
     pub(crate) fn set_in_word(&mut self, word: usize, bits: u64) {
         self.words[word] |= bits;
     }
@@ -152,7 +154,7 @@ impl Mask {
         })
     }
 
-    /// Make true what is true in the other mask as well; of two integers the lesser is left.
+    /// Makes all pixels true that are true in `other`. Of two optical depths the smaller one is kept.
     pub fn merge(&mut self, other: &Mask) {
         if let (Some(mine), Some(theirs)) = (&mut self.depths, &other.depths) {
             for (mine, theirs) in mine.steps.iter_mut().zip(&theirs.steps) {
@@ -169,7 +171,7 @@ fn words_for(pixels: u32) -> usize {
     pixels.div_ceil(64) as usize
 }
 
-/// The last of so many pixels' words where all are true.
+/// The last word of a mask with all pixels true.
 fn last_word(pixels: u32) -> u64 {
     u64::MAX >> (pixels.wrapping_neg() % 64)
 }
@@ -190,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn integers_are_rounded_and_run_out() {
+    fn optical_depths_are_rounded_and_limited() {
         for (bits, most) in [(DepthBits::Eight, 7.9), (DepthBits::Sixteen, 15.99)] {
             let mut mask = Mask::none(3).with_depths(bits);
             for depth in [0.0, 0.3, 1.0, most] {

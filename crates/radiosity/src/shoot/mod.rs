@@ -2,6 +2,7 @@
 //!
 //! - `work`: counts of operations, which a machine prices
 //! - `mask`: the visibility mask (§3.2)
+//! - `directions`: sets of directions: Fibonacci, hemicube, polar, concentric
 //! - `hemisphere`: the directions of the rays over an emitter (§3.2)
 //! - `form_factors`: sums of the weights of pixels
 //! - `shot`: an emitter, and the result of its shot in one environment
@@ -13,6 +14,7 @@
 
 mod bundle;
 mod dimmed;
+mod directions;
 mod form_factors;
 mod hemisphere;
 mod kernel;
@@ -22,7 +24,7 @@ mod shot;
 mod trace;
 mod work;
 
-pub(crate) use hemisphere::unlifted;
+pub(crate) use directions::unlifted;
 pub use hemisphere::{Hemisphere, HemisphereError, HemisphereKind, MOST_PIXELS};
 pub use kernel::shoot;
 pub use mask::Mask;

@@ -1,4 +1,4 @@
-//! Shooting a ray at a time: slow, obvious, and the oracle of the fast path.
+//! Shooting one ray at a time: slow and simple. Tests compare the fast path with it.
 
 use super::form_factors::FormFactors;
 use super::hemisphere::Hemisphere;
@@ -9,10 +9,10 @@ use crate::geometry::Ray;
 use crate::mesh::{LocalEnvironment, Side, Space};
 use crate::shoot::bundle::WIDTH;
 
-/// Where a ray's passage through an environment ends.
+/// How the passage of a ray through an environment ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum End {
-    /// On a polygon, at this distance.
+    /// At a polygon.
     Hit {
         /// The polygon.
         polygon: u32,
@@ -23,27 +23,26 @@ pub enum End {
     Leaves(Side),
 }
 
-/// [`shoot`](crate::shoot) a ray at a time, each polygon of each cell tested as it comes, in a scene without
+/// Like [`shoot`](crate::shoot), one ray at a time, testing the polygons cell by cell. For scenes without
 /// participating media.
 pub fn shoot_plainly(
     space: &Space,
     environment: &LocalEnvironment,
     hemisphere: &Hemisphere,
-    source: &Emitter,
+    emitter: &Emitter,
     mask: &Mask,
 ) -> Shot {
-    let [tangent, bitangent, normal] = hemisphere.frame(source.centre, source.normal);
+    let frame = hemisphere.frame(emitter.centre, emitter.normal);
     let form_factors = FormFactors::one_by_one(Tally::places(environment), hemisphere);
     let mut tally = Tally::new(environment, mask, form_factors);
     for pixel in mask.ones() {
-        let d = hemisphere.directions[pixel as usize];
-        let ray = Ray::new(source.centre, tangent * d.x + bitangent * d.y + normal * d.z);
-        cast_pixel(space, environment, &ray, source.polygon, pixel, &mut tally);
+        let ray = Ray::new(emitter.centre, hemisphere.direction(frame, pixel));
+        cast_pixel(space, environment, &ray, emitter.polygon, pixel, &mut tally);
     }
     tally.finish()
 }
 
-/// Cast the ray of a pixel and count how it ends.
+/// Casts the ray of a pixel and counts how it ends.
 pub(crate) fn cast_pixel(
     space: &Space,
     environment: &LocalEnvironment,
@@ -63,7 +62,7 @@ pub(crate) fn cast_pixel(
     }
 }
 
-/// Follow one ray through an environment to the nearest hit or to the side by which it leaves.
+/// Follows one ray through an environment to the nearest hit or to the side through which it leaves.
 pub fn cast(
     space: &Space,
     environment: &LocalEnvironment,
@@ -91,8 +90,8 @@ pub fn cast(
     }
 }
 
-/// The nearest polygon of a cell that a ray hits before it leaves the cell. Of polygons at the same
-/// distance a front goes before a back, then the lower number: coplanar surfaces have one owner.
+/// The nearest polygon that a ray hits inside a cell. Of polygons at the same distance, fronts precede backs,
+/// then the lower index decides: each point of coplanar surfaces belongs to one polygon.
 #[inline]
 fn nearest_hit(
     space: &Space,

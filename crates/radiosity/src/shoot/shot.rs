@@ -1,4 +1,4 @@
-//! What becomes of a source in one environment.
+//! An emitter, and the result of shooting it through one environment.
 
 use glam::DVec3;
 
@@ -8,56 +8,59 @@ use super::work::{Operation, Work};
 use crate::mesh::{LocalEnvironment, Side};
 use crate::scene::Rgb;
 
-/// A patch that shoots, as every environment needs to know it.
+/// Geometry and photometry of a patch that shoots: what other environments must know about it. Together with
+/// its visibility mask it is a source.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Emitter {
-    /// Environment of the patch.
+    /// Index of its environment.
     pub environment: u32,
-    /// The patch in that environment.
+    /// Index of the patch in that environment.
     pub patch: u32,
-    /// Its polygon, which its own rays cannot hit.
+    /// Index of its polygon, which its own rays cannot hit.
     pub polygon: u32,
-    /// Where its rays start.
+    /// Origin of its rays.
     pub centre: DVec3,
-    /// Unit normal, the hemisphere's axis.
+    /// Unit normal, the axis of the hemisphere.
     pub normal: DVec3,
-    /// Unshot power that is being shot, W.
+    /// The power to shoot, W.
     pub power: Rgb,
-    /// The same a unit of area, W/m²: the delta-radiosity of §4.2.2.
+    /// The same per area, W/m²: the delta-radiosity of §4.2.2.
     pub radiosity: Rgb,
 }
 
-/// What became of a source's pixels in one environment. It depends on geometry alone, so a shot can
-/// be kept and used again whatever power the source has.
+/// Result of shooting an emitter through one environment. It depends only on geometry, so it can be stored
+/// and reused for any power.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shot {
-    /// Patches hit and the form factor that each got, by rising patch.
+    /// Patches hit, in increasing order, and the form factor of each.
     pub hits: Vec<(u32, f64)>,
-    /// Form factor of what fell on backs of polygons.
+    /// Form factor of all backs of polygons.
     pub backs: f64,
-    /// Form factor of what left the scene.
+    /// Form factor of the rays that left the scene.
     pub escaped: f64,
-    /// Form factor of what participating media absorbed.
+    /// Form factor absorbed by participating media.
     pub medium: f64,
-    /// For each side the pixels that leave through it, where there are any ([`Side::index`]).
+    /// For each side, by [`Side::index`]: the pixels that leave through it, if there are any.
     pub outgoing: [Option<Outgoing>; 6],
     /// Operations counted.
     pub work: Work,
 }
 
-/// A mask on its way to a neighbour.
+/// A mask for a neighbour.
+///
+/// Paper: §4.2.3, Figure 3.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outgoing {
     /// True for the pixels whose ray first leaves through this interface.
     ///
-    /// Choice C12: §4.2.3 says "hits the plane". Taken of the unbounded plane, one pixel would reach
-    /// several neighbours and its energy would double.
+    /// Choice C12: §4.2.3 says "hits the plane". With unbounded planes, one pixel would reach several
+    /// neighbours and its energy would be counted twice.
     pub mask: Mask,
-    /// Their form factor together, dimmed by participating media.
+    /// Sum of their form factors, reduced by participating media.
     pub form_factor: f64,
 }
 
-/// A shot while its pixels are counted.
+/// Counts the pixels of a shot by where their rays end.
 pub(crate) struct Tally<'a> {
     environment: &'a LocalEnvironment,
     mask: &'a Mask,
@@ -67,7 +70,7 @@ pub(crate) struct Tally<'a> {
 }
 
 impl<'a> Tally<'a> {
-    /// Nothing counted yet; `form_factors` with room for [`Tally::places`].
+    /// An empty tally. `form_factors` must have [`Tally::places`] places.
     pub(crate) fn new(
         environment: &'a LocalEnvironment,
         mask: &'a Mask,
@@ -76,13 +79,13 @@ impl<'a> Tally<'a> {
         Tally { environment, mask, form_factors, outgoing: Default::default(), work: Work::NONE }
     }
 
-    /// Form factors to be counted: of each patch, of backs, of what leaves the scene
-    /// and of what leaves by each side for a neighbour.
+    /// Number of form factors: of each patch, of all backs, of what leaves the scene, and of what leaves
+    /// through each side to a neighbour.
     pub(crate) fn places(environment: &LocalEnvironment) -> usize {
         environment.patches.len() + 2 + Side::ALL.len()
     }
 
-    /// Rays of the bundle, a bit each, hit the front of a patch, or a back.
+    /// Rays of a bundle, one bit each, hit the front of a patch, or a back (`None`).
     #[inline]
     pub(crate) fn hit(&mut self, patch: Option<u32>, bundle: usize, rays: u64) {
         let place = patch.map_or(self.environment.patches.len(), |patch| patch as usize);
@@ -90,7 +93,7 @@ impl<'a> Tally<'a> {
         self.work.count(Operation::Hit, u64::from(rays.count_ones()));
     }
 
-    /// Rays of the bundle, a bit each, leave by a side: to a neighbour, or out of the scene.
+    /// Rays of a bundle, one bit each, leave through a side, to a neighbour or out of the scene.
     pub(crate) fn leave(&mut self, side: Side, bundle: usize, rays: u64) {
         let escaped = self.environment.patches.len() + 1;
         if !self.environment.has_neighbour(side) {
@@ -103,6 +106,7 @@ impl<'a> Tally<'a> {
             .set_in_word(bundle, rays);
     }
 
+    /// The finished shot.
     pub(crate) fn finish(self) -> Shot {
         let Tally { environment, mask, form_factors, mut outgoing, work } = self;
         let patches = environment.patches.len();
@@ -123,9 +127,9 @@ impl<'a> Tally<'a> {
     }
 }
 
-/// Count what §4.2.3 does apart from casting: every pixel of the mask is looked at, each neighbour
-/// gets a copy of the mask, each pixel still true is tested against that neighbour's plane, and the
-/// radiosities of all local patches are updated.
+/// Counts the other operations of §4.2.3: every pixel of the mask is tested, the mask is copied for each
+/// neighbour, each pixel still true is tested against the plane of that neighbour, and the radiosities of
+/// all local patches are updated.
 pub(crate) fn count_passes(shot: &mut Shot, environment: &LocalEnvironment, mask: &Mask) {
     let left: u64 = shot.outgoing.iter().flatten().map(|o| u64::from(o.mask.count())).sum();
     let neighbours = Side::ALL.iter().filter(|&&side| environment.has_neighbour(side)).count();

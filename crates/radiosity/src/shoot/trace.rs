@@ -1,4 +1,4 @@
-//! What a shot touches in memory, record by record: a cache wants to know more than counts.
+//! The memory accesses of a shot, record by record, as input for models of caches (§5.2).
 
 use super::hemisphere::Hemisphere;
 use super::mask::Mask;
@@ -6,73 +6,73 @@ use super::shot::Emitter;
 use crate::geometry::Ray;
 use crate::mesh::{LocalEnvironment, Side, Space};
 
-/// A record that the virtual processor reads or writes while it casts rays.
+/// A record that the simulated processor reads or writes while it casts rays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Record {
     /// The direction of a pixel.
     Direction(u32),
-    /// A plane of the grid that the search for the source's cell looks at.
+    /// A plane of the grid, read in the search for the cell of the emitter.
     Search {
-        /// Across which axis it lies.
+        /// Axis of its normal.
         axis: usize,
-        /// Its number there.
+        /// Index among the planes of that axis.
         plane: u32,
     },
-    /// A cell of the grid, by its place, x running fastest, and its list of so many polygons.
+    /// A cell of the grid and its list of polygons.
     Cell {
-        /// Its place.
+        /// Index of the cell. x varies fastest.
         place: u32,
-        /// Length of its list.
+        /// Length of the list.
         polygons: u32,
     },
     /// The plane of a polygon.
     Plane(u32),
-    /// A plane of the grid, whose distance along the ray is computed.
+    /// A plane of the grid whose distance along the ray is computed.
     Crossing {
-        /// Across which axis it lies.
+        /// Axis of its normal.
         axis: usize,
-        /// Its number there.
+        /// Index among the planes of that axis.
         plane: u32,
     },
-    /// The edges of a polygon whose plane the ray meets in this cell, up to the one that it passes outside.
+    /// The edges of a polygon whose plane the ray meets in this cell, up to the first that excludes the point.
     Edges {
-        /// The polygon.
+        /// Index of the polygon.
         polygon: u32,
-        /// How many.
+        /// Number of edges.
         edges: u32,
     },
-    /// What finds the patch that a ray hits, and the patch.
+    /// The piece in which the hit patch is looked up, and the patch.
     Hit {
-        /// Its polygon.
+        /// Index of its polygon.
         polygon: u32,
-        /// Its number in its environment.
+        /// Index of the patch in its environment.
         patch: u32,
     },
-    /// The mask, copied for a neighbour (§4.2.3).
+    /// The copy of the mask for a neighbour (§4.2.3).
     Copy,
-    /// The direction of a pixel still true, and its bit in that copy: does it hit the neighbour's plane?
+    /// The direction of a pixel still true and its bit in that copy, for the test against the plane of the
+    /// neighbour.
     PlaneTest(u32),
 }
 
-/// Tell `touch` of every record, in the order in which [`shoot_plainly`](crate::shoot_plainly) comes by.
+/// Calls `touch` for every record, in the order in which [`shoot_plainly`](crate::shoot_plainly) uses them.
 pub fn trace(
     space: &Space,
     environment: &LocalEnvironment,
     hemisphere: &Hemisphere,
-    source: &Emitter,
+    emitter: &Emitter,
     mask: &Mask,
     mut touch: impl FnMut(Record),
 ) {
-    let [tangent, bitangent, normal] = hemisphere.frame(source.centre, source.normal);
-    let start = space.grid.cell_of(source.centre);
-    let looked_at = space.grid.planes_looked_at(source.centre);
+    let frame = hemisphere.frame(emitter.centre, emitter.normal);
+    let start = space.grid.cell_of(emitter.centre);
+    let tested = space.grid.planes_tested(emitter.centre);
     let mut left = Vec::new();
     for pixel in mask.ones() {
         touch(Record::Direction(pixel));
-        looked_at.iter().for_each(|&(axis, plane)| touch(Record::Search { axis, plane }));
-        let d = hemisphere.directions[pixel as usize];
-        let ray = Ray::new(source.centre, tangent * d.x + bitangent * d.y + normal * d.z);
-        if let Some(side) = trace_ray(space, environment, &ray, (source, start), &mut touch)
+        tested.iter().for_each(|&(axis, plane)| touch(Record::Search { axis, plane }));
+        let ray = Ray::new(emitter.centre, hemisphere.direction(frame, pixel));
+        if let Some(side) = trace_ray(space, environment, &ray, (emitter, start), &mut touch)
             && environment.has_neighbour(side)
         {
             left.push(pixel);
@@ -84,12 +84,12 @@ pub fn trace(
     }
 }
 
-/// Follow a ray from a source in a cell; the side by which it leaves, if it hits nothing.
+/// Follows a ray from an emitter in the cell `start`. Returns the side through which it leaves, if any.
 fn trace_ray(
     space: &Space,
     environment: &LocalEnvironment,
     ray: &Ray,
-    (source, start): (&Emitter, [u32; 3]),
+    (emitter, start): (&Emitter, [u32; 3]),
     touch: &mut impl FnMut(Record),
 ) -> Option<Side> {
     let Space { grid, .. } = space;
@@ -104,7 +104,7 @@ fn trace_ray(
     loop {
         let (place, listed) = (grid.index(passage.cell) as u32, passage.polygons());
         touch(Record::Cell { place, polygons: listed.len() as u32 });
-        let others = listed.iter().copied().filter(|&polygon| polygon != source.polygon);
+        let others = listed.iter().copied().filter(|&polygon| polygon != emitter.polygon);
         if let Some((polygon, distance)) = nearest_hit(space, others, ray, passage.exit(), touch) {
             if let Some(patch) = environment.patch_at(polygon, ray.at(distance)) {
                 touch(Record::Hit { polygon, patch });
@@ -119,8 +119,8 @@ fn trace_ray(
     }
 }
 
-/// The nearest polygon of a cell that the ray hits before `exit`. Which of several coplanar ones it is
-/// does not matter here.
+/// The nearest polygon of a cell that the ray hits before `exit`. The choice among coplanar ones does not
+/// matter here.
 fn nearest_hit(
     space: &Space,
     polygons: impl Iterator<Item = u32>,
@@ -133,7 +133,7 @@ fn nearest_hit(
         touch(Record::Plane(polygon));
         let limit = nearest.map_or(exit, |(_, distance)| distance);
         let Some(distance) = space.facets.meets_plane(polygon, ray, limit) else { continue };
-        let edges = space.facets.edges_looked_at(polygon, ray.at(distance));
+        let edges = space.facets.edges_tested(polygon, ray.at(distance));
         touch(Record::Edges { polygon, edges });
         if let Some(distance) = space.facets.hit(polygon, ray, limit) {
             nearest = Some((polygon, distance));

@@ -1,18 +1,18 @@
-//! Counts of what a kernel did, for a machine to price.
+//! Counts of the operations of a kernel, from which a machine model computes time.
 
 use std::ops::{Add, AddAssign};
 
 macro_rules! operations {
     ($($(#[$doc:meta])* $variant:ident $name:literal,)*) => {
-        /// An operation that kernels count. A machine gives each a price in cycles.
+        /// An operation that kernels count. Machine models give each a cost in cycles.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Operation { $($(#[$doc])* $variant,)* }
 
         impl Operation {
-            /// Every operation, in the order in which [`Work`] keeps them.
+            /// All operations, in the order of [`Work`].
             pub const ALL: &[Operation] = &[$(Operation::$variant,)*];
 
-            /// The name by which machine files price it.
+            /// Its name in machine files.
             pub fn name(self) -> &'static str {
                 match self { $(Operation::$variant => $name,)* }
             }
@@ -21,29 +21,29 @@ macro_rules! operations {
 }
 
 operations! {
-    /// A pixel of a mask looked at.
+    /// A pixel of a mask tested.
     PixelTest "pixel_test",
-    /// A ray set up: its direction turned into the source's frame, its entry into the grid found.
+    /// A ray set up: direction rotated into the frame of the emitter, entry into the grid found.
     Ray "ray",
     /// A step from a cell of the grid to the next.
     CellStep "cell_step",
     /// A ray tested against a polygon.
     PolygonTest "polygon_test",
-    /// A hit turned into its patch, and its share added to the patch's form factor.
+    /// The patch of a hit found, and the pixel added to its form factor.
     Hit "hit",
     /// A pixel still true tested against the plane of a neighbouring environment (§4.2.3).
     PlaneTest "plane_test",
-    /// A patch's radiosity and unshot radiosity updated from its form factor.
+    /// Radiosity and unshot radiosity of a patch updated from its form factor.
     PatchUpdate "patch_update",
-    /// A local patch looked at when the next source is chosen.
+    /// A local patch compared in the search for the next source.
     PatchScan "patch_scan",
-    /// A queued source looked at when the next source is chosen.
+    /// A queued source compared in the search for the next source.
     QueueScan "queue_scan",
     /// An 8-byte word of a mask or message copied.
     WordCopied "word_copied",
 }
 
-/// How often each operation was done.
+/// Counts of all operations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work([u64; Operation::ALL.len()]);
 
@@ -51,12 +51,12 @@ impl Work {
     /// No work.
     pub const NONE: Work = Work([0; Operation::ALL.len()]);
 
-    /// Count `times` more of an operation.
+    /// Adds `times` to the count of an operation.
     pub fn count(&mut self, operation: Operation, times: u64) {
         self.0[operation as usize] += times;
     }
 
-    /// How often an operation was done.
+    /// The count of an operation.
     pub fn of(&self, operation: Operation) -> u64 {
         self.0[operation as usize]
     }

@@ -1,4 +1,4 @@
-//! The nearest polygon that each ray of a bundle meets.
+//! The nearest polygon that each ray of a bundle hits.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
@@ -8,29 +8,29 @@ use crate::mesh::{Facet, Facets};
 
 /// The nearest hit found so far of each ray of a bundle.
 pub(crate) struct Nearest {
-    /// Metres to the hit; infinite while there is none, below zero for rays that are not cast.
+    /// Distance of the hit, metres. Infinite while there is none, negative for rays that are not cast.
     pub(crate) distance: Column,
-    /// The polygons that are nearest for some rays.
+    /// The polygons that are the nearest for some rays.
     pub(crate) hits: Vec<Hit>,
-    /// The greatest distance that a ray may still go.
+    /// The largest distance at which a polygon could still be the nearest for a ray.
     pub(crate) limit: f64,
 }
 
 /// Rays that hit one side of a polygon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Hit {
-    /// Whether it is the back: of hits at the same distance a front goes first.
+    /// Whether it is the back. Of hits at the same distance, a front precedes a back.
     pub(crate) back: bool,
-    /// The polygon, by its number in the environment: then the lowest.
+    /// Index of the piece in the environment. Then the lowest index precedes.
     pub(crate) piece: u32,
     pub(crate) rays: u64,
 }
 
-/// Rays that reach a polygon, by how its distance compares with that of their nearest hit.
+/// Rays that hit a polygon not farther away than their nearest hit so far.
 struct Reach {
     nearer: u64,
     as_near: u64,
-    /// Those of all that meet the front.
+    /// The rays that come from its front.
     front: u64,
 }
 
@@ -40,7 +40,7 @@ impl Nearest {
         Nearest { distance, hits: Vec::new(), limit: 0.0 }
     }
 
-    /// Forget all hits; look for those of the rays `cast`.
+    /// Removes all hits, and starts with the rays `cast`.
     #[inline(always)]
     pub(crate) fn clear<S: Simd>(&mut self, simd: S, cast: u64) {
         for chunk in 0..CHUNKS {
@@ -52,12 +52,12 @@ impl Nearest {
         self.limit = f64::INFINITY;
     }
 
-    /// Rays that hit something.
+    /// The rays that hit something.
     pub(crate) fn found(&self) -> u64 {
         self.hits.iter().fold(0, |rays, hit| rays | hit.rays)
     }
 
-    /// Test all rays against a polygon, number `piece` in the environment.
+    /// Tests all rays against a polygon, which is piece `piece` of the environment.
     #[inline(always)]
     pub(crate) fn meet<S: Simd>(
         &mut self,
@@ -80,8 +80,8 @@ impl Nearest {
         }
     }
 
-    /// Where rays reach an axis-aligned rectangle. Slope and edges are those of the general case, to
-    /// the bit: products with one and zero.
+    /// Tests rays against an axis-aligned rectangle. The result equals that of the general case to the bit,
+    /// since all factors are one or zero there.
     #[inline(always)]
     fn meet_rectangle<S: Simd>(
         &mut self,
@@ -93,7 +93,7 @@ impl Nearest {
         [(p0, p1), (q0, q1)]: [(f64, f64); 2],
     ) -> Reach {
         let above = sign * facets.above(facet, rays.origin);
-        let (i, j) = facet.kept;
+        let (i, j) = facet.axes;
         let (oi, oj) = (rays.origin[i], rays.origin[j]);
         let (mut nearer, mut as_near) = (0, 0);
         for chunk in 0..CHUNKS {
@@ -109,12 +109,12 @@ impl Nearest {
         Reach { nearer, as_near, front: if sign > 0.0 { down } else { rays.up[axis] } }
     }
 
-    /// Where rays reach any polygon: [`Facets::hit`].
+    /// Tests rays against any polygon, as [`Facets::hit`] does.
     #[inline(always)]
     fn meet_any<S: Simd>(&mut self, simd: S, rays: &Rays, facets: &Facets, facet: &Facet) -> Reach {
         let above = facets.above(facet, rays.origin);
         let normal = facet.normal.to_array();
-        let (i, j) = facet.kept;
+        let (i, j) = facet.axes;
         let (oi, oj) = (rays.origin[i], rays.origin[j]);
         let mut reach = Reach { nearer: 0, as_near: 0, front: 0 };
         for chunk in 0..CHUNKS {
@@ -137,9 +137,9 @@ impl Nearest {
         reach
     }
 
-    /// Keep the distances `t` of a chunk's rays where they are ahead, inside by a `margin` that is not
-    /// below the tolerance, and nearer than those kept so far: which those are, a bit each, and which
-    /// are as near.
+    /// Stores the distances `t` of the rays of a chunk that are positive, inside the polygon (`margin` is the
+    /// distance to the nearest edge) and nearer than the stored ones. Returns these rays, and the rays for
+    /// which it is equally near.
     #[inline(always)]
     fn keep<S: Simd>(
         &mut self,
@@ -161,7 +161,7 @@ impl Nearest {
         (nearer.to_bitmask(), (reached & !nearer).to_bitmask())
     }
 
-    /// Make a polygon the nearest of the rays that reach it first.
+    /// Makes a polygon the nearest one of the rays for which it is, or for which it precedes an equally near one.
     fn record(&mut self, reach: &Reach, piece: u32) {
         let mut wins = reach.nearer;
         let mut tied = reach.as_near & self.found();
@@ -185,7 +185,7 @@ impl Nearest {
     }
 }
 
-/// The greatest distance of all rays.
+/// The largest distance of all rays.
 #[inline(always)]
 fn farthest<S: Simd>(simd: S, distance: &Column) -> f64 {
     let mut farthest = distance[0].load(simd);

@@ -1,8 +1,8 @@
-//! Bundles of 64 neighbouring rays from one source, one for each word of a mask: the fast path.
+//! The rays of a bundle: 64 neighbouring rays from one emitter, one for each bit of a word of a mask.
 //!
-//! The arithmetic of each ray is that of [`Ray`] and [`Facets::hit`](crate::Facets::hit) to the bit,
-//! only done on eight rays at a time, by the best vector instructions that the host has. What is true
-//! of some rays of a bundle and not of others is a word, a bit a ray.
+//! The arithmetic of each ray is that of [`Ray`] and [`Facets::hit`](crate::Facets::hit) to the bit, but done
+//! on eight rays at a time with the best vector instructions of the host. Sets of rays are words, with one
+//! bit for each ray.
 
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
@@ -10,16 +10,16 @@ use glam::DVec3;
 
 use crate::geometry::{Pyramid, Ray};
 
-/// Rays in a bundle: bits in a word of a mask.
+/// Number of rays in a bundle: the bits of a word of a mask.
 pub(crate) const WIDTH: usize = 64;
 
-/// Rays done at a time.
+/// Number of rays that are computed at a time: a chunk.
 pub(crate) const LANES: usize = 8;
 
-/// Times that makes a bundle.
+/// Number of chunks in a bundle.
 pub(crate) const CHUNKS: usize = WIDTH / LANES;
 
-/// A number for each of the rays done at a time.
+/// A number for each ray of a chunk.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 pub(crate) struct Lanes(pub(crate) [f64; LANES]);
@@ -36,13 +36,13 @@ impl Lanes {
     }
 }
 
-/// Those bits of a word that a chunk's rays have, lowest first.
+/// The bits of a word that belong to a chunk, in the lowest bits.
 #[inline(always)]
 pub(crate) fn of_chunk(word: u64, chunk: usize) -> u64 {
     word >> (chunk * LANES) & 0xff
 }
 
-/// Unit directions in a source's frame, coordinate by coordinate, and a pyramid around each bundle.
+/// Unit directions in the frame of an emitter, stored by coordinate, and a pyramid around each bundle.
 #[derive(Clone, Debug)]
 pub(crate) struct Bundles {
     directions: Vec<[Column; 3]>,
@@ -50,7 +50,7 @@ pub(crate) struct Bundles {
 }
 
 impl Bundles {
-    /// Bundles of directions in their order; the last one is filled up with its last direction.
+    /// Bundles of directions in their order. The last bundle is filled with its last direction.
     pub(crate) fn new(directions: &[DVec3]) -> Bundles {
         let fill = |bundle: &[DVec3]| {
             let at = |lane: usize| bundle[lane.min(bundle.len() - 1)];
@@ -67,20 +67,21 @@ impl Bundles {
     }
 }
 
-/// A bundle of rays over a source.
+/// The rays of a bundle, from the centre of an emitter.
 pub(crate) struct Rays {
     pub(crate) origin: DVec3,
     frame: [DVec3; 3],
     pub(crate) direction: [Column; 3],
     pub(crate) inverse: [Column; 3],
-    /// By axis, the rays that go up it, and those at right angles to it.
+    /// For each axis, the rays whose direction is positive.
     pub(crate) up: [u64; 3],
+    /// For each axis, the rays perpendicular to it.
     pub(crate) level: [u64; 3],
     pub(crate) pyramid: Pyramid,
 }
 
 impl Rays {
-    /// Rays from a source, not aimed yet.
+    /// Rays without directions.
     pub(crate) fn from(origin: DVec3, frame: [DVec3; 3]) -> Rays {
         let zero = [Lanes::ZERO; CHUNKS];
         Rays {
@@ -94,7 +95,7 @@ impl Rays {
         }
     }
 
-    /// Aim them as a bundle: [`Ray::new`].
+    /// Sets the directions to those of a bundle, as [`Ray::new`] does.
     #[inline(always)]
     pub(crate) fn aim<S: Simd>(&mut self, simd: S, bundles: &Bundles, bundle: usize) {
         self.pyramid = bundles.pyramids[bundle].over(self.origin, self.frame);

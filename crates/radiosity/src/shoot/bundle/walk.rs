@@ -1,65 +1,67 @@
-//! The walk of a bundle's rays through the grid, those in the same cell together: where they end, and
-//! what the virtual processor is charged for. It is [`Passage`](crate::grid::Passage) for 64 rays at
-//! a time, without testing a polygon.
+//! The walk of the rays of a bundle through the grid: counts the operations of the simulated processor and
+//! finds where rays leave the block.
+//!
+//! It does what [`Passage`](crate::Passage) does, for 64 rays at a time: rays in the same cell go together.
+//! Polygons are counted, not tested: hits are known already.
 
 use fearless_simd::prelude::*;
 
 use super::entry::Entry;
-use super::lattice::Lattice;
+use super::grid_view::GridView;
+use super::heading::Heading;
 use super::nearest::Nearest;
 use super::rays::{CHUNKS, LANES, Rays, of_chunk};
-use super::way::Way;
 use crate::mesh::Side;
 
-/// Walks through one block from one source.
+/// Walks rays of one emitter through one block.
 pub(crate) struct Walk<'a> {
-    lattice: Lattice<'a>,
+    view: GridView<'a>,
     entry: Entry,
+    /// Groups that still have to move in this step.
     here: Vec<Group>,
-    /// Where groups go from here; rays that come to one cell from several go on as one group.
+    /// Groups after the next step. Rays that reach the same cell become one group.
     next: Vec<Group>,
 }
 
-/// Rays of a bundle, a bit each, that are in the same cell.
+/// Rays of a bundle, one bit each, that are in the same cell.
 #[derive(Clone, Copy)]
 struct Group {
     cell: u32,
-    /// The plane ahead of them on each axis, by its place among all.
+    /// The next plane on each axis: its index in [`GridView::planes`].
     ahead: [u32; 3],
     rays: u64,
 }
 
-/// What becomes of a group on each axis when it crosses the plane ahead, for rays that go the same way
-/// on all.
+/// How a group moves when it crosses the next plane of an axis, for rays with the same headings.
 struct Course {
-    ways: [Way; 3],
-    /// To the next plane.
+    headings: [Heading; 3],
+    /// Added to the index of the plane.
     step: [i32; 3],
-    /// To the next cell.
+    /// Added to the index of the cell.
     stride: [i32; 3],
-    /// The plane at the end of the block.
+    /// Index of the plane at the end of the block.
     end: [u32; 3],
 }
 
-/// What came of a walk.
+/// Result of a walk.
 #[derive(Default)]
 pub(crate) struct Walked {
-    /// Cells come through, over all rays.
+    /// Number of cells passed, over all rays.
     pub(crate) steps: u64,
-    /// Polygons in them.
+    /// Number of polygons in these cells.
     pub(crate) tests: u64,
-    /// Rays that end on their hit.
+    /// Rays that end at their hit.
     pub(crate) ended: u64,
     /// Rays that leave the block, by side.
     pub(crate) left: [u64; 6],
 }
 
 impl<'a> Walk<'a> {
-    pub(crate) fn new(lattice: Lattice<'a>) -> Walk<'a> {
-        Walk { lattice, entry: Entry::default(), here: Vec::new(), next: Vec::new() }
+    pub(crate) fn new(view: GridView<'a>) -> Walk<'a> {
+        Walk { view, entry: Entry::default(), here: Vec::new(), next: Vec::new() }
     }
 
-    /// Walk those rays of a bundle that are `cast`, each to its hit or out of the block.
+    /// Walks the rays `cast` of a bundle, each to its hit or out of the block.
     #[inline(always)]
     pub(crate) fn run<S: Simd>(
         &mut self,
@@ -72,15 +74,15 @@ impl<'a> Walk<'a> {
         let mut walked = Walked::default();
         let mut rest = cast;
         while rest != 0 {
-            // Those that go the same way on every axis go together: mostly all of them.
-            let (ways, alike) = Way::of_first(rays, rest);
+            // Rays with the same headings go together. Usually these are all of them.
+            let (headings, alike) = Heading::of_first(rays, rest);
             rest &= !alike;
-            let course = Course::new(&self.lattice, ways);
+            let course = Course::new(&self.view, headings);
             self.enter(simd, rays, &course, alike, &mut walked);
             while !self.here.is_empty() {
                 for group in 0..self.here.len() {
                     let group = self.here[group];
-                    let ahead = group.ahead.map(|plane| self.lattice.planes[plane as usize]);
+                    let ahead = group.ahead.map(|plane| self.view.planes[plane as usize]);
                     let crossings = next_crossings(simd, rays, nearest, group.rays, ahead);
                     self.step(&course, group, crossings, found, &mut walked);
                 }
@@ -91,7 +93,7 @@ impl<'a> Walk<'a> {
         walked
     }
 
-    /// Put rays into the cells in which their walk starts.
+    /// Puts rays into the cells in which their walk starts.
     #[inline(always)]
     fn enter<S: Simd>(
         &mut self,
@@ -101,24 +103,24 @@ impl<'a> Walk<'a> {
         cast: u64,
         walked: &mut Walked,
     ) {
-        let Walk { lattice, entry, here, .. } = self;
+        let Walk { view, entry, here, .. } = self;
         let mut start = |cell: [u32; 3], rays: u64| {
-            let (ahead, cell) = (lattice.ahead(course.ways, cell), lattice.grid.index(cell) as u32);
+            let (ahead, cell) = (view.ahead(course.headings, cell), view.grid.index(cell) as u32);
             here.push(Group { cell, ahead, rays });
         };
-        if lattice.block.contains(lattice.start) {
-            start(lattice.start, cast);
+        if view.block.contains(view.start) {
+            start(view.start, cast);
             return;
         }
-        let never = entry.find(simd, lattice, rays, course.ways, cast);
+        let never = entry.find(simd, view, rays, course.headings, cast);
         entry.cells.iter().for_each(|&(cell, rays)| start(cell, rays));
         if never != 0 {
-            let side = lattice.block.side_towards(lattice.start, course.ways[0] == Way::Up);
+            let side = view.block.side_towards(view.start, course.headings[0] == Heading::Up);
             walked.left[side.index()] |= never;
         }
     }
 
-    /// Go on from one cell.
+    /// Moves a group on from its cell.
     #[inline(always)]
     fn step(
         &mut self,
@@ -130,7 +132,7 @@ impl<'a> Walk<'a> {
     ) {
         let count = u64::from(group.rays.count_ones());
         walked.steps += count;
-        walked.tests += count * self.lattice.grid.polygons_in(group.cell);
+        walked.tests += count * self.view.grid.polygons_in(group.cell);
         let ended = there & group.rays & found;
         walked.ended |= ended;
         let going = group.rays & !ended;
@@ -142,11 +144,11 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Take rays over the plane ahead on an axis, to the next cell or out of the block.
+    /// Moves rays across the next plane of an axis, to the next cell or out of the block.
     #[inline(always)]
     fn cross(&mut self, course: &Course, axis: usize, mut group: Group, walked: &mut Walked) {
         if group.ahead[axis] == course.end[axis] {
-            let side = Side { axis, upper: course.ways[axis] == Way::Up };
+            let side = Side { axis, upper: course.headings[axis] == Heading::Up };
             walked.left[side.index()] |= group.rays;
             return;
         }
@@ -160,26 +162,26 @@ impl<'a> Walk<'a> {
 }
 
 impl Course {
-    fn new(lattice: &Lattice, ways: [Way; 3]) -> Course {
-        let [nx, ny, _] = lattice.grid.cells().map(|n| n as i32);
-        let mut course = Course { ways, step: [0; 3], stride: [1, nx, nx * ny], end: [0; 3] };
-        for (axis, way) in ways.into_iter().enumerate() {
-            let (step, end) = match way {
-                Way::Down => (-1, lattice.block.low[axis]),
-                Way::Level => (0, 0),
-                Way::Up => (1, lattice.block.high[axis]),
+    fn new(view: &GridView, headings: [Heading; 3]) -> Course {
+        let [nx, ny, _] = view.grid.cells().map(|n| n as i32);
+        let mut course = Course { headings, step: [0; 3], stride: [1, nx, nx * ny], end: [0; 3] };
+        for (axis, heading) in headings.into_iter().enumerate() {
+            let (step, end) = match heading {
+                Heading::Down => (-1, view.block.low[axis]),
+                Heading::Level => (0, 0),
+                Heading::Up => (1, view.block.high[axis]),
             };
             course.step[axis] = step;
             course.stride[axis] *= step;
-            course.end[axis] = lattice.first[axis] + end;
+            course.end[axis] = view.first[axis] + end;
         }
         course
     }
 }
 
-/// Of rays in a cell, the planes ahead of it at these distances along each axis: those whose hit is
-/// no farther than the nearest crossing; those that cross the plane of x first; of the others, but not
-/// of them alone, those that cross that of y first. Of equal crossings that of the lower axis is first.
+/// What rays in a cell do next, given the coordinates `ahead` of the next planes relative to the emitter.
+/// Returns three sets: rays whose hit is not farther than the next crossing, rays that cross the x plane
+/// first, and rays that cross the y plane before the z plane. Of equal crossings, the lower axis is first.
 #[inline(always)]
 fn next_crossings<S: Simd>(
     simd: S,

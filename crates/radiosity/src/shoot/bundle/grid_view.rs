@@ -1,27 +1,27 @@
-//! The planes of the grid as seen from a source, with the block that its rays go through.
+//! The planes of the grid relative to an emitter, and the block that its rays go through.
 
 use fearless_simd::prelude::*;
 use glam::DVec3;
 
+use super::heading::Heading;
 use super::rays::{CHUNKS, LANES, Rays};
-use super::way::Way;
 use crate::mesh::{Block, Grid};
 
-/// The grid from one source.
-pub(crate) struct Lattice<'a> {
+/// The grid as seen from one emitter.
+pub(crate) struct GridView<'a> {
     pub(crate) grid: &'a Grid,
     pub(crate) block: Block,
-    /// The cell of the source.
+    /// The cell of the emitter.
     pub(crate) start: [u32; 3],
-    /// Distance from the source to each plane along its axis, axis after axis; and at the end one that
-    /// is never crossed.
+    /// Coordinates of all planes relative to the emitter, axis after axis. The last entry is a plane that is
+    /// never crossed.
     pub(crate) planes: Vec<f64>,
-    /// Where the planes of each axis start, and that last one.
+    /// Index of the first plane of each axis, and of the last entry.
     pub(crate) first: [u32; 4],
 }
 
-impl<'a> Lattice<'a> {
-    pub(crate) fn new(grid: &'a Grid, block: Block, origin: DVec3) -> Lattice<'a> {
+impl<'a> GridView<'a> {
+    pub(crate) fn new(grid: &'a Grid, block: Block, origin: DVec3) -> GridView<'a> {
         let mut planes = Vec::new();
         let mut first = [0; 4];
         for axis in 0..3 {
@@ -29,20 +29,20 @@ impl<'a> Lattice<'a> {
             first[axis + 1] = planes.len() as u32;
         }
         planes.push(f64::INFINITY);
-        Lattice { grid, block, start: grid.cell_of(origin), planes, first }
+        GridView { grid, block, start: grid.cell_of(origin), planes, first }
     }
 
-    /// The place of the plane that rays in a cell cross next on each axis.
-    pub(crate) fn ahead(&self, ways: [Way; 3], cell: [u32; 3]) -> [u32; 3] {
-        std::array::from_fn(|axis| match ways[axis] {
-            Way::Down => self.first[axis] + cell[axis],
-            Way::Level => self.first[3],
-            Way::Up => self.first[axis] + cell[axis] + 1,
+    /// Index of the plane that rays in a cell cross next on each axis.
+    pub(crate) fn ahead(&self, headings: [Heading; 3], cell: [u32; 3]) -> [u32; 3] {
+        std::array::from_fn(|axis| match headings[axis] {
+            Heading::Down => self.first[axis] + cell[axis],
+            Heading::Level => self.first[3],
+            Heading::Up => self.first[axis] + cell[axis] + 1,
         })
     }
 
-    /// The rays that cross one plane before another, each given by its axis and its number there:
-    /// crossings are sorted by distance, then by axis.
+    /// The rays that cross one plane before another, each given by its axis and its number. Crossings are
+    /// sorted by distance, then by axis.
     #[inline(always)]
     pub(crate) fn crossed<S: Simd>(
         &self,

@@ -1,4 +1,4 @@
-//! Which patches the rays of a bundle end on.
+//! Finds the patches that the rays of a bundle hit.
 
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
@@ -8,22 +8,22 @@ use super::nearest::Nearest;
 use super::rays::{CHUNKS, LANES, Rays, of_chunk};
 use crate::mesh::{LocalEnvironment, Piece};
 
-/// Tell, some rays of the bundle at a time, on the front of which patch those that have `ended` did,
-/// or that it was on a back.
+/// Calls `report` with the patch (`None` for a back) and the rays that hit it, for all rays that `ended`. A patch
+/// can be reported several times.
 #[inline(always)]
-pub(crate) fn land<S: Simd>(
+pub(crate) fn find_patches<S: Simd>(
     simd: S,
     rays: &Rays,
     nearest: &Nearest,
     environment: &LocalEnvironment,
     ended: u64,
-    mut told: impl FnMut(Option<u32>, u64),
+    mut report: impl FnMut(Option<u32>, u64),
 ) {
     for hit in &nearest.hits {
         let there = hit.rays & ended;
         let piece = &environment.pieces[hit.piece as usize];
         if hit.back || piece.is_back() {
-            told(None, there);
+            report(None, there);
             continue;
         }
         for chunk in (0..CHUNKS).filter(|&chunk| of_chunk(there, chunk) != 0) {
@@ -34,14 +34,14 @@ pub(crate) fn land<S: Simd>(
                 let alike = slots.simd_eq(slot).to_bitmask() & rest;
                 rest &= !alike;
                 let patch = environment.slots[slot as usize];
-                told(Some(patch), alike << (chunk * LANES));
+                report(Some(patch), alike << (chunk * LANES));
             }
         }
     }
 }
 
-/// The slots of a piece in which the rays of a chunk end: [`LocalEnvironment::patch_at`]. They are
-/// whole numbers, which the arithmetic of rays leaves exact.
+/// The slots in which the rays of a chunk hit a piece, computed as in [`LocalEnvironment::patch_at`]. Slots are
+/// integers, which f64 represents exactly.
 #[inline(always)]
 fn slots<S: Simd>(
     simd: S,
@@ -60,6 +60,7 @@ fn slots<S: Simd>(
     f64::from(piece.first_slot) + (j * f64::from(piece.nu) + i)
 }
 
+/// The slot of points along one direction.
 #[inline(always)]
 fn slot<S: Simd>([x, y, z]: [f64x8<S>; 3], along: DVec3, start: f64, n: u32) -> f64x8<S> {
     let along = x * along.x + y * along.y + z * along.z - start;
