@@ -56,7 +56,7 @@ fn emitters(problem: &Problem) -> Vec<Source> {
         let light = Light::new(&problem.space, environment);
         for patch in 0..environment.patches.len() as u32 {
             if light.unshot[patch as usize] != Rgb::ZERO {
-                let source = light.source(&problem.space, environment, number, patch);
+                let source = light.emitter(&problem.space, environment, number, patch);
                 let mask = Mask::all(problem.hemisphere.pixels());
                 found.push(Source { environment: number, emitter: source, mask, form_factor: 1.0 });
             }

@@ -1,84 +1,42 @@
-//! What light does: scene, polygons, patches, grid, hemisphere, visibility mask, shooting.
+//! What light does: scenes, meshes, hemispheres, visibility masks, shooting, pictures.
 //!
-//! Knows nothing of processors, messages or time.
+//! The crate knows nothing of processors, messages or time. Each folder imports only those listed above it:
+//!
+//! - `geometry`: boxes, rays, clipping: geometry that knows no scene
+//! - `media`: participating media that absorb light (§3.2)
+//! - `scene`: scenes, read from OBJ and MTL files and cleaned
+//! - `mesh`: the grid of cells (§3.4), local environments and their patches (§4.2.1)
+//! - `shoot`: the rays of an emitter through a local environment (§3.3, §4.2.3)
+//! - `virtual_walls`: energy gathered by wall patch and direction: the method before masks
+//! - `light`: the light on patches; progressive radiosity in one environment (§5.2)
+//! - `picture`: images and glTF meshes of solved scenes (Figures 7 and 8)
 
-mod bounds;
-mod bundle;
-mod camera;
-mod canvas;
-mod clean;
-mod clip;
-mod coplanar;
-mod dimmed;
-mod entry;
-mod environment;
-mod facets;
-mod form_factors;
-mod gltf;
-mod greatest;
-mod grid;
-mod hemisphere;
-mod landing;
-mod lattice;
+mod geometry;
 mod light;
-mod mask;
 mod media;
 mod mesh;
-mod mtl;
-mod nearest;
-mod obj;
-mod outline;
-mod parts;
 mod picture;
-mod plain;
-mod pyramid;
-mod ray;
-mod refinement;
 mod scene;
-mod scene_error;
 mod shoot;
-mod shot;
-mod solve;
-mod space;
-mod split;
-mod stitch;
-mod text;
-mod tone;
-mod trace;
-mod tree;
 mod virtual_walls;
-mod walk;
-mod warning;
-mod way;
-mod work;
 
-pub use bounds::Bounds;
-pub use camera::Camera;
-pub use environment::{LocalEnvironment, Patch, PatchSize};
-pub use facets::Facets;
+pub use geometry::{Bounds, Ray};
 pub use glam;
-pub use greatest::Greatest;
-pub use grid::{Block, Grid, Passage, Side};
-pub use hemisphere::{Hemisphere, HemisphereError, HemisphereKind, MOST_PIXELS};
-pub use light::Light;
-pub use mask::Mask;
+pub use light::{Greatest, Light, Refinement, Wanted, solve, solve_watched};
 pub use media::{DepthBits, Medium, optical_depth};
-pub use mesh::{Mesh, Shading};
-pub use mtl::DEFAULT_REFLECTANCE;
-pub use obj::{load_obj, load_obj_from};
-pub use parts::Part;
-pub use picture::{LARGEST_PICTURE, Picture, PictureError, PictureOptions, render, studio_light};
-pub use plain::{End, cast, shoot_plainly};
-pub use ray::Ray;
-pub use refinement::{Refinement, Wanted};
-pub use scene::{Face, Material, Plane, Polygon, Rgb, Scene};
-pub use scene_error::SceneError;
-pub use shoot::shoot;
-pub use shot::{Emitter, Outgoing, Shot};
-pub use solve::{solve, solve_watched};
-pub use space::Space;
-pub use tone::{Exposure, Tone};
-pub use trace::{Record, trace};
+pub use mesh::{
+    Block, Facets, Grid, LocalEnvironment, Part, Passage, Patch, PatchSize, Side, Space,
+};
+pub use picture::{
+    Camera, Exposure, LARGEST_PICTURE, Mesh, Picture, PictureError, PictureOptions, Shading, Tone,
+    render, studio_light,
+};
+pub use scene::{
+    DEFAULT_REFLECTANCE, Face, Material, Plane, Polygon, Rgb, Scene, SceneError, Warning,
+    WarningKind, Warnings, load_obj, load_obj_from,
+};
+pub use shoot::{
+    Emitter, End, Hemisphere, HemisphereError, HemisphereKind, MOST_PIXELS, Mask, Operation,
+    Outgoing, Record, Shot, Work, cast, shoot, shoot_plainly, trace,
+};
 pub use virtual_walls::{VirtualWalls, VirtualWallsError};
-pub use warning::{Warning, WarningKind, Warnings};
-pub use work::{Operation, Work};

@@ -1,43 +1,41 @@
-//! Virtual walls, which masks came after (§3, reference [1] of RR-3008): the bounded interface between two
-//! environments is meshed, and energy that reaches it is gathered by wall patch and by direction.
+//! Virtual walls, the method before visibility masks (§3 and reference [1] of RR-3008): interfaces between
+//! environments are meshed, and the energy that reaches them is gathered by wall patch and by direction.
 
 use glam::DVec3;
 use thiserror::Error;
 
-use crate::bounds::Bounds;
-use crate::grid::Side;
-use crate::hemisphere::{Hemisphere, unlifted};
-use crate::mask::Mask;
+use crate::geometry::Bounds;
+use crate::mesh::Side;
 use crate::scene::Rgb;
-use crate::shot::Emitter;
+use crate::shoot::{Emitter, Hemisphere, Mask, unlifted};
 
-/// How all virtual walls are meshed, and the directions over a wall patch.
+/// The mesh of all virtual walls, and the bins of directions of their wall patches.
 ///
-/// Choice C40: reference [1] needs "several information such as the spatial distribution of the energy"
-/// on wall patches and RR-3008 says no more of it. Here each interface has p × q equal wall patches; the
-/// directions over one, weighted by the cosine, are d × d bins of equal form factor (the concentric map of
-/// a square, which keeps bins compact). What is known of energy that was gathered is its wall patch and
-/// its bin; it leaves from the wall patch's centre, evenly over the bin, by rays of equal weight.
+/// Choice C40: RR-3008 only says that reference [1] needs "several information such as the spatial
+/// distribution of the energy" on wall patches. Here each interface has p × q equal wall patches. Their
+/// cosine-weighted directions form d × d bins of equal form factor (the concentric map of a square, which
+/// keeps bins compact). Of gathered energy only the wall patch and the bin are known. It leaves from the
+/// centre of the wall patch, evenly over the bin, by rays of equal weight.
 #[derive(Clone, Debug)]
 pub struct VirtualWalls {
-    /// Wall patches along the two axes of an interface, in the order x, y, z.
+    /// Number of wall patches along the two axes of an interface, in the order x, y, z.
     patches: [u32; 2],
-    /// Bins along each side of the square of directions.
+    /// Number of bins along each side of the square of directions.
     directions: u32,
-    /// The rays of each bin, as a hemisphere that has no others.
+    /// The rays of each bin, as a hemisphere with only these directions.
     bins: Vec<Hemisphere>,
 }
 
-/// A mesh that no virtual walls can have.
+/// An impossible mesh of virtual walls.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 pub enum VirtualWallsError {
-    /// No wall patch, or far too many.
+    /// No wall patches, or too many.
     #[error("{0} x {1} wall patches; expected 1 to {MOST_PATCHES} each")]
     Patches(u32, u32),
-    /// No bin, or far too many.
+    /// No bins, or too many.
     #[error("{0} x {0} directions; expected 1 to {MOST_DIRECTIONS}")]
     Directions(u32),
-    /// Bins without a ray, or far too many.
+    /// Bins without rays, or too many rays.
     #[error(
         "{0} rays for {1} bins of directions; expected at least one each, at most {MOST_RAYS} in all"
     )]
@@ -48,19 +46,22 @@ const MOST_PATCHES: u32 = 256;
 const MOST_DIRECTIONS: u32 = 64;
 const MOST_RAYS: u32 = 1 << 24;
 
-/// The environment that a source on a virtual wall says it is of.
+/// The environment index of emitters on virtual walls.
 const OF_A_WALL: u32 = u32::MAX;
 
 impl Emitter {
-    /// Whether it is a bin of a wall patch, not a patch.
+    /// Whether it is a bin of a wall patch instead of a patch.
     pub fn is_of_a_wall(&self) -> bool {
         self.environment == OF_A_WALL
     }
 }
 
 impl VirtualWalls {
-    /// Walls of `patches` wall patches, of `directions` × `directions` bins each, that emit some `rays`
-    /// rays: as near as an equal square of them a bin comes to it.
+    /// Virtual walls with `patches` wall patches of `directions` × `directions` bins each. A wall patch emits
+    /// about `rays` rays: each bin has an equal square number of them.
+    ///
+    /// # Errors
+    /// Numbers out of range.
     pub fn new(
         patches: [u32; 2],
         directions: u32,
@@ -82,30 +83,30 @@ impl VirtualWalls {
         Ok(VirtualWalls { patches, directions, bins: (0..bins).map(bin).collect() })
     }
 
-    /// Wall patches of an interface.
+    /// Number of wall patches of an interface.
     pub fn patches(&self) -> u32 {
         self.patches[0] * self.patches[1]
     }
 
-    /// Bins of directions of a wall patch.
+    /// Number of bins of a wall patch.
     pub fn bins(&self) -> u32 {
         self.bins.len() as u32
     }
 
-    /// Area of a wall patch on a side of the environment that lies within `around`, m².
+    /// Area of a wall patch on a side of an environment with bounds `around`, m².
     pub fn area(&self, around: &Bounds, side: Side) -> f64 {
         around.size()[u(side)] * around.size()[v(side)] / f64::from(self.patches())
     }
 
-    /// The rays of a bin of a wall patch, if the source is one.
-    pub fn rays_of(&self, source: &Emitter) -> Option<&Hemisphere> {
-        let bin = source.patch as usize % self.bins.len();
-        source.is_of_a_wall().then(|| &self.bins[bin])
+    /// The rays of an emitter that is a bin of a wall patch, otherwise `None`.
+    pub fn rays_of(&self, emitter: &Emitter) -> Option<&Hemisphere> {
+        let bin = emitter.patch as usize % self.bins.len();
+        emitter.is_of_a_wall().then(|| &self.bins[bin])
     }
 
-    /// A bin of a wall patch as a source of `power`, in the environment that lies within `around`; light
-    /// enters it by `side`.
-    pub fn source(
+    /// A bin of a wall patch as an emitter of `power`. Its light enters the environment with bounds `around`
+    /// through `side`.
+    pub fn emitter(
         &self,
         around: &Bounds,
         side: Side,
@@ -130,32 +131,32 @@ impl VirtualWalls {
         }
     }
 
-    /// Gather what leaves an environment, which lies within `around`, by `side`: tell the wall patch, the
-    /// bin and the form factor of every pixel of `mask`.
+    /// Gathers the light of `mask` that leaves an environment with bounds `around` through `side`: calls
+    /// `add` with wall patch and bin, and the form factor, of every pixel.
     pub fn gather(
         &self,
         around: &Bounds,
         side: Side,
-        source: &Emitter,
+        emitter: &Emitter,
         hemisphere: &Hemisphere,
         mask: &Mask,
-        mut told: impl FnMut([u32; 2], f64),
+        mut add: impl FnMut([u32; 2], f64),
     ) {
-        let frame = hemisphere.frame(source.centre, source.normal);
+        let frame = hemisphere.frame(emitter.centre, emitter.normal);
         let plane = if side.upper { around.max } else { around.min }[side.axis];
         for pixel in mask.ones() {
-            let d = hemisphere.directions[pixel as usize];
-            let direction = frame[0] * d.x + frame[1] * d.y + frame[2] * d.z;
-            // A source in the plane of the wall has rays that run in it: these cross where they start.
-            let distance = (plane - source.centre[side.axis]) / direction[side.axis];
+            let direction = hemisphere.direction(frame, pixel);
+            // Rays of an emitter in the plane of the wall can run inside that plane. They cross it at their
+            // origin.
+            let distance = (plane - emitter.centre[side.axis]) / direction[side.axis];
             let distance = if distance.is_finite() { distance } else { 0.0 };
-            let patch = self.patch_at(around, side, source.centre + direction * distance);
+            let patch = self.patch_at(around, side, emitter.centre + direction * distance);
             let left = hemisphere.weights[pixel as usize] * mask.transmittance(pixel);
-            told([patch, self.bin_of(side, direction)], left);
+            add([patch, self.bin_of(side, direction)], left);
         }
     }
 
-    /// The wall patch in which a point lies.
+    /// The wall patch that contains a point.
     fn patch_at(&self, around: &Bounds, side: Side, point: DVec3) -> u32 {
         let place = |axis: usize, n: u32| {
             let share = (point[axis] - around.min[axis]) / around.size()[axis];
@@ -164,7 +165,7 @@ impl VirtualWalls {
         place(v(side), self.patches[1]) * self.patches[0] + place(u(side), self.patches[0])
     }
 
-    /// The bin of a direction that leaves by a side.
+    /// The bin of a direction that leaves through a side.
     fn bin_of(&self, side: Side, direction: DVec3) -> u32 {
         let [tangent, bitangent, _] = self.bins[0].frame(DVec3::ZERO, outwards(side));
         let square = unlifted(direction.dot(tangent), direction.dot(bitangent));
@@ -174,18 +175,19 @@ impl VirtualWalls {
     }
 }
 
-/// Out of an environment by a side, and into its neighbour.
+/// The outward normal of a side.
 fn outwards(side: Side) -> DVec3 {
     let mut normal = DVec3::ZERO;
     normal[side.axis] = if side.upper { 1.0 } else { -1.0 };
     normal
 }
 
-/// The axes along a side, in the order x, y, z.
+/// The first axis along a side, in the order x, y, z.
 fn u(side: Side) -> usize {
     usize::from(side.axis == 0)
 }
 
+/// The second axis along a side.
 fn v(side: Side) -> usize {
     if side.axis == 2 { 1 } else { 2 }
 }
@@ -197,8 +199,8 @@ mod tests {
     const AROUND: Bounds =
         Bounds { min: DVec3::new(-1.0, 0.5, 2.0), max: DVec3::new(1.0, 2.0, 5.0) };
 
-    /// What a bin of a wall patch emits is gathered by the same wall patch and bin, if the wall is crossed
-    /// where it starts: so energy and its distribution go through a wall unchanged.
+    /// Light emitted by a bin of a wall patch and sent back through its own wall is gathered in the same wall
+    /// patch and bin, so a wall changes neither energy nor its distribution.
     #[test]
     fn a_wall_patch_gathers_what_it_emits() {
         let walls = VirtualWalls::new([3, 5], 6, 900).unwrap();
@@ -206,9 +208,9 @@ mod tests {
             let other = Side { upper: !side.upper, ..side };
             for patch in 0..walls.patches() {
                 for bin in 0..walls.bins() {
-                    let source = walls.source(&AROUND, side, [patch, bin], Rgb::ONE);
-                    let rays = walls.rays_of(&source).unwrap();
-                    // Back to where they came from: the neighbour's side in the same plane.
+                    let emitter = walls.emitter(&AROUND, side, [patch, bin], Rgb::ONE);
+                    let rays = walls.rays_of(&emitter).unwrap();
+                    // Back through the same plane: the opposite side of the neighbour.
                     let (mut sum, all) = (0.0, Mask::all(rays.pixels()));
                     let behind = |(min, max): (DVec3, DVec3)| Bounds { min, max };
                     let mut neighbour = (AROUND.min, AROUND.max);
@@ -222,7 +224,7 @@ mod tests {
                     walls.gather(
                         &behind(neighbour),
                         other,
-                        &source,
+                        &emitter,
                         rays,
                         &all,
                         |place, weight| {
@@ -236,14 +238,14 @@ mod tests {
         }
     }
 
-    /// Bins have equal form factors, and the directions of any hemisphere fall into all alike.
+    /// Bins have equal form factors: the directions of any hemisphere are spread equally over them.
     #[test]
     fn bins_share_the_hemisphere_equally() {
-        use crate::hemisphere::HemisphereKind::Fibonacci;
+        use crate::shoot::HemisphereKind::Fibonacci;
         let walls = VirtualWalls::new([1, 1], 4, 16).unwrap();
         let hemisphere = Hemisphere::new(Fibonacci, 30_976, true).unwrap();
         let side = Side { axis: 1, upper: true };
-        let source = Emitter {
+        let emitter = Emitter {
             environment: 0,
             patch: 0,
             polygon: 0,
@@ -254,7 +256,7 @@ mod tests {
         };
         let mut shares = [0.0; 16];
         let all = Mask::all(hemisphere.pixels());
-        walls.gather(&AROUND, side, &source, &hemisphere, &all, |[_, bin], weight| {
+        walls.gather(&AROUND, side, &emitter, &hemisphere, &all, |[_, bin], weight| {
             shares[bin as usize] += weight;
         });
         assert!(shares.iter().all(|share| (share * 16.0 - 1.0).abs() < 0.02), "{shares:?}");

@@ -102,7 +102,7 @@ fn a_trace_touches_what_the_slow_kernel_counts() {
     let mask = Mask::all(hemisphere.pixels());
     let (mut shots, mut tests) = (0, 0);
     for patch in (0..environment.patches.len() as u32).step_by(7) {
-        let source = light.source(space, environment, 0, patch);
+        let source = light.emitter(space, environment, 0, patch);
         let work = shoot_plainly(space, environment, hemisphere, &source, &mask).work;
         let (mut rays, mut cells, mut listed, mut hits) = (0, 0, 0, 0);
         let (mut crossings, mut words, mut planes) = (0, 0, 0);

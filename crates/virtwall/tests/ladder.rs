@@ -99,7 +99,7 @@ fn light(problem: &Problem) -> (Vec<Told>, BTreeSet<u32>) {
     let mut lengths = BTreeSet::new();
     for &(_, e, patch) in order.iter().cycle().take(6 * order.len()) {
         let environment = &problem.environments[e as usize];
-        let source = lights[e as usize].take_source(&problem.space, environment, e, patch);
+        let source = lights[e as usize].take_emitter(&problem.space, environment, e, patch);
         let mask = Mask::all(problem.hemisphere_for(source.power).pixels());
         let mut waiting = vec![Source { environment: e, emitter: source, mask, form_factor: 1.0 }];
         while let Some(parcel) = waiting.pop() {

@@ -166,7 +166,7 @@ impl Region {
     fn emitter(&self, place: usize, patch: u32) -> Emitter {
         let Environment { number, light, .. } = &self.environments[place];
         let geometry = &self.problem.environments[*number as usize];
-        light.source(&self.problem.space, geometry, *number, patch)
+        light.emitter(&self.problem.space, geometry, *number, patch)
     }
 
     /// The unshot power of these patches has changed.

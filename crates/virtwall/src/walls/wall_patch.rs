@@ -31,7 +31,7 @@ impl WallPatch {
         let held = (0u32..).zip(&self.power).filter(|(_, power)| **power != [0.0; 3]);
         let source = |(bin, power): (u32, &[f32; 3])| {
             let power = Rgb::from_array(power.map(f64::from));
-            let emitter = walls.source(&around, side, [self.patch, bin], power);
+            let emitter = walls.emitter(&around, side, [self.patch, bin], power);
             let mask = Mask::all(walls.rays_of(&emitter).map_or(0, Hemisphere::pixels));
             Source { environment, emitter, mask, form_factor: 1.0 }
         };

@@ -1,0 +1,50 @@
+//! Progressive radiosity in one environment: the traditional approach of §5.2, without virtual interfaces.
+
+use super::greatest::Greatest;
+use super::light::Light;
+use crate::mesh::{LocalEnvironment, Space};
+use crate::shoot::{Hemisphere, Mask, shoot};
+
+/// Repeatedly shoots the patch with the most unshot power, until not more than the fraction `stop_below` of
+/// the emitted power is unshot or `most_shots` are done. Returns the light and the number of shots.
+///
+/// `environment` must be the whole grid: light that leaves it is lost.
+pub fn solve(
+    space: &Space,
+    environment: &LocalEnvironment,
+    hemisphere: &Hemisphere,
+    stop_below: f64,
+    most_shots: u64,
+) -> (Light, u64) {
+    solve_watched(space, environment, hemisphere, stop_below, most_shots, |_| ())
+}
+
+/// Like [`solve`], but calls `watch` after each shot with the fraction of the emitted power that is unshot.
+pub fn solve_watched(
+    space: &Space,
+    environment: &LocalEnvironment,
+    hemisphere: &Hemisphere,
+    stop_below: f64,
+    most_shots: u64,
+    mut watch: impl FnMut(f64),
+) -> (Light, u64) {
+    let mut light = Light::new(space, environment);
+    let mut greatest = Greatest::new(light.unshot.iter().map(|power| power.element_sum()));
+    let mut left = light.unshot_power().element_sum();
+    let emitted = left;
+    let mask = Mask::all(hemisphere.pixels());
+    let mut shots = 0;
+    while shots < most_shots && left > emitted * stop_below {
+        let Some((power, patch)) = greatest.best() else { break };
+        let emitter = light.take_emitter(space, environment, 0, patch);
+        let shot = shoot(space, environment, hemisphere, &emitter, &mask);
+        left += light.receive(&emitter, &shot).element_sum() - power;
+        greatest.set(patch, light.unshot[patch as usize].element_sum());
+        for &(hit, _) in &shot.hits {
+            greatest.set(hit, light.unshot[hit as usize].element_sum());
+        }
+        shots += 1;
+        watch(left / emitted);
+    }
+    (light, shots)
+}

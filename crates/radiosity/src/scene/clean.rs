@@ -1,0 +1,317 @@
+//! Cleans the faces of a file into a scene: local coordinates, welded vertices, convex planar polygons
+//! with positive area, no duplicates.
+
+use std::collections::BTreeSet;
+
+use earcut::Earcut;
+use glam::DVec3;
+
+use super::coplanar::share_planes;
+use super::error::{FARTHEST, SceneError};
+use super::scene::{Face, Material, Plane, Polygon, Scene};
+use super::warnings::{WarningKind, Warnings};
+use crate::geometry::Bounds;
+
+/// A face is planar if no corner is farther from its plane than this fraction of the size of the face.
+const FLATNESS: f64 = 1e-6;
+
+impl Scene {
+    /// Cleans faces into a scene, with warnings about what had to be repaired.
+    ///
+    /// Coordinates become local to the centre of all corners, and those closer than 1e-9 of the diagonal
+    /// become equal. Faces that are not planar (to 1e-6 of their size) or not convex are divided into
+    /// triangles. Faces without area, and faces with the same corners and front as an earlier one, are
+    /// dropped. A face of a two-sided material is stored twice, back to back. Polygons in the same plane
+    /// share it to the bit.
+    ///
+    /// # Errors
+    /// An impossible material, a coordinate that is not finite or beyond 1e12 m, an index out of range,
+    /// too many corners, or no face with an area.
+    pub fn new(
+        faces: &[Face],
+        materials: Vec<Material>,
+        objects: Vec<String>,
+    ) -> Result<(Scene, Warnings), SceneError> {
+        check(faces, &materials, &objects)?;
+        let world = Bounds::of(faces.iter().flat_map(|f| f.points.iter().copied()));
+        let origin = (world.min + world.max) * 0.5;
+        let tolerance = 1e-9 * world.size().length();
+        let (welded, corners) = weld(faces, origin, tolerance);
+
+        let mut cleaner = Cleaner {
+            vertices: &welded,
+            tolerance,
+            seen: BTreeSet::new(),
+            polygons: Vec::new(),
+            warnings: Warnings::default(),
+            earcut: Earcut::new(),
+        };
+        let mut corners = corners.as_slice();
+        for (index, face) in faces.iter().enumerate() {
+            let (own, rest) = corners.split_at(face.points.len());
+            corners = rest;
+            let two_sided = materials[face.material as usize].two_sided;
+            cleaner.add(face, own, two_sided, || place(faces, index, &objects));
+        }
+        let Cleaner { mut polygons, warnings, .. } = cleaner;
+        if polygons.is_empty() {
+            return Err(SceneError::NoSurface { faces: faces.len() });
+        }
+        share_planes(&mut polygons, tolerance);
+        let vertices = keep_used(&welded, &mut polygons);
+        let bounds = Bounds::of(vertices.iter().copied());
+        let media = Vec::new();
+        Ok((Scene { vertices, polygons, materials, objects, origin, bounds, media }, warnings))
+    }
+}
+
+/// Names a face by its object and its number in it, counted from 1.
+fn place(faces: &[Face], index: usize, objects: &[String]) -> String {
+    let object = faces[index].object;
+    let number = faces[..=index].iter().filter(|f| f.object == object).count();
+    format!("object \"{}\", face {number}", objects[object as usize])
+}
+
+/// Rejects invalid materials, indices and coordinates.
+fn check(faces: &[Face], materials: &[Material], objects: &[String]) -> Result<(), SceneError> {
+    materials.iter().try_for_each(Material::check)?;
+    let corners = faces.iter().map(|f| f.points.len()).sum();
+    if corners > u32::MAX as usize / 2 {
+        return Err(SceneError::TooMany { corners });
+    }
+    for (number, face) in faces.iter().enumerate() {
+        for (what, index, count) in
+            [("material", face.material, materials.len()), ("object", face.object, objects.len())]
+        {
+            if index as usize >= count {
+                return Err(SceneError::Index { face: number + 1, what, index, count });
+            }
+        }
+        // NaN fails the comparison too.
+        if let Some(&at) = face.points.iter().find(|p| !p.abs().cmple(DVec3::splat(FARTHEST)).all())
+        {
+            return Err(SceneError::Corner { place: place(faces, number, objects), at });
+        }
+    }
+    Ok(())
+}
+
+/// Welds corners: returns distinct vertices, local to the origin, and the index of each corner's vertex.
+///
+/// On each axis coordinates closer than the tolerance become equal, so that faces in the same plane x = c
+/// share it exactly. Vertices are equal if their three coordinates are.
+fn weld(faces: &[Face], origin: DVec3, tolerance: f64) -> (Vec<DVec3>, Vec<u32>) {
+    let points = || faces.iter().flat_map(|f| &f.points).map(|&p| p - origin);
+    let levels: [Vec<f64>; 3] = std::array::from_fn(|axis| {
+        let mut values: Vec<f64> = points().map(|p| p[axis]).collect();
+        values.sort_unstable_by(f64::total_cmp);
+        values.dedup_by(|next, first| *next - *first <= tolerance);
+        values
+    });
+    let ranks: Vec<[u32; 3]> = points()
+        .map(|p| std::array::from_fn(|a| levels[a].partition_point(|&v| v <= p[a]) as u32 - 1))
+        .collect();
+    let mut distinct = ranks.clone();
+    distinct.sort_unstable();
+    distinct.dedup();
+    let corners =
+        ranks.iter().map(|rank| distinct.partition_point(|other| other < rank) as u32).collect();
+    let vertices = distinct
+        .iter()
+        .map(|rank| DVec3::from_array(std::array::from_fn(|a| levels[a][rank[a] as usize])))
+        .collect();
+    (vertices, corners)
+}
+
+/// Keeps the vertices that polygons use, and renumbers the corners of the polygons.
+fn keep_used(vertices: &[DVec3], polygons: &mut [Polygon]) -> Vec<DVec3> {
+    let mut number = vec![u32::MAX; vertices.len()];
+    for &v in polygons.iter().flat_map(|p| &p.vertices) {
+        number[v as usize] = 0;
+    }
+    let mut used = Vec::new();
+    for (vertex, number) in vertices.iter().zip(&mut number).filter(|(_, n)| **n == 0) {
+        *number = used.len() as u32;
+        used.push(*vertex);
+    }
+    for v in polygons.iter_mut().flat_map(|p| &mut p.vertices) {
+        *v = number[*v as usize];
+    }
+    used
+}
+
+/// Convex planar rings of vertices, each with its plane and area.
+type Pieces = Vec<(Vec<u32>, Plane, f64)>;
+
+/// Turns faces into polygons, one at a time.
+struct Cleaner<'a> {
+    vertices: &'a [DVec3],
+    tolerance: f64,
+    /// Rings of the polygons so far, each starting at its smallest vertex.
+    seen: BTreeSet<Vec<u32>>,
+    polygons: Vec<Polygon>,
+    warnings: Warnings,
+    earcut: Earcut<f64>,
+}
+
+impl Cleaner<'_> {
+    fn add(&mut self, face: &Face, corners: &[u32], two_sided: bool, place: impl Fn() -> String) {
+        let ring = self.without_redundant_corners(corners);
+        let Some((plane, area)) = self.measure(&ring) else {
+            self.warnings.add(WarningKind::ZeroArea, place);
+            return;
+        };
+        let split = if !self.is_planar(&ring, plane) {
+            Some(WarningKind::NonPlanar)
+        } else if !self.is_convex(&ring, plane) {
+            Some(WarningKind::Concave)
+        } else {
+            None
+        };
+        let pieces = if let Some(kind) = split {
+            self.warnings.add(kind, &place);
+            self.triangles(&ring, plane, &place)
+        } else {
+            vec![(ring, plane, area)]
+        };
+        let mut duplicated = false;
+        for (ring, plane, area) in pieces {
+            if two_sided {
+                let back = ring.iter().rev().copied().collect();
+                duplicated |= !self.push(face, ring, plane, area);
+                duplicated |= !self.push(face, back, plane.reversed(), area);
+            } else {
+                duplicated |= !self.push(face, ring, plane, area);
+            }
+        }
+        if duplicated {
+            self.warnings.add(WarningKind::Duplicate, place);
+        }
+    }
+
+    /// Adds a polygon. Returns false if it exists already.
+    fn push(&mut self, face: &Face, mut ring: Vec<u32>, plane: Plane, area: f64) -> bool {
+        let mut key = ring.clone();
+        let least = (0..key.len()).min_by_key(|&i| key[i]).unwrap_or(0);
+        key.rotate_left(least);
+        if !self.seen.insert(key) {
+            return false;
+        }
+        ring.shrink_to_fit();
+        let (material, object) = (face.material, face.object);
+        self.polygons.push(Polygon { vertices: ring, material, object, plane, area });
+        true
+    }
+
+    fn at(&self, vertex: u32) -> DVec3 {
+        self.vertices[vertex as usize]
+    }
+
+    fn points(&self, ring: &[u32]) -> impl Iterator<Item = DVec3> + Clone {
+        ring.iter().map(|&v| self.at(v))
+    }
+
+    /// The ring without corners that are repeated or on the line through their neighbours.
+    fn without_redundant_corners(&self, ring: &[u32]) -> Vec<u32> {
+        let mut kept: Vec<u32> = Vec::with_capacity(ring.len());
+        for &corner in ring {
+            while let [.., before, last] = *kept
+                && self.is_redundant(before, last, corner)
+            {
+                kept.pop();
+            }
+            if kept.last() != Some(&corner) {
+                kept.push(corner);
+            }
+        }
+        // The same where the end of the ring meets its start.
+        let mut rest = kept.as_slice();
+        while let [first, second, .., before, last] = *rest {
+            if self.is_redundant(before, last, first) {
+                rest = &rest[..rest.len() - 1];
+            } else if self.is_redundant(last, first, second) {
+                rest = &rest[1..];
+            } else {
+                break;
+            }
+        }
+        rest.to_vec()
+    }
+
+    fn is_redundant(&self, before: u32, corner: u32, after: u32) -> bool {
+        let chord = self.at(after) - self.at(before);
+        let off = (self.at(corner) - self.at(before)).cross(chord).length();
+        off <= self.tolerance * chord.length()
+    }
+
+    /// Plane (Newell's method) and area of a ring, or `None` if it has no area.
+    fn measure(&self, ring: &[u32]) -> Option<(Plane, f64)> {
+        let first = self.at(*ring.first()?);
+        let edges = || self.points(ring).zip(self.points(ring).cycle().skip(1));
+        let perimeter: f64 = edges().map(|(a, b)| a.distance(b)).sum();
+        let normal: DVec3 = edges().map(|(a, b)| (a - first).cross(b - first)).sum::<DVec3>() * 0.5;
+        let area = normal.length();
+        if ring.len() < 3 || area <= self.tolerance * perimeter {
+            return None;
+        }
+        let level = (0..3).find(|&axis| self.points(ring).all(|p| p[axis] == first[axis]));
+        let plane = match level {
+            Some(axis) => {
+                let side = normal[axis].signum();
+                Plane { normal: DVec3::AXES[axis] * side, offset: first[axis] * side }
+            }
+            None => {
+                let normal = normal / area;
+                let offsets: f64 = self.points(ring).map(|p| normal.dot(p)).sum();
+                Plane { normal, offset: offsets / ring.len() as f64 }
+            }
+        };
+        Some((plane, area))
+    }
+
+    fn is_planar(&self, ring: &[u32], plane: Plane) -> bool {
+        let size = Bounds::of(self.points(ring)).size().length();
+        // Welding can move a corner by the tolerance along each axis.
+        let slack = (FLATNESS * size).max(4.0 * self.tolerance);
+        ring.len() == 3
+            || self.points(ring).all(|p| (plane.normal.dot(p) - plane.offset).abs() <= slack)
+    }
+
+    /// Whether the ring turns left at every corner and goes around once. It goes around once if each corner
+    /// is left of the first edge and the triangle fan from the first corner never turns back.
+    fn is_convex(&self, ring: &[u32], plane: Plane) -> bool {
+        let left = |a: u32, b: u32, c: u32| {
+            let (a, b, c) = (self.at(a), self.at(b), self.at(c));
+            (b - a).cross(c - a).dot(plane.normal) > 0.0
+        };
+        let n = ring.len();
+        (0..n).all(|i| left(ring[i], ring[(i + 1) % n], ring[(i + 2) % n]))
+            && (2..n).all(|i| left(ring[0], ring[1], ring[i]))
+            && (2..n).all(|i| left(ring[0], ring[i - 1], ring[i]))
+    }
+
+    /// Triangles that cover a ring, with the same front.
+    fn triangles(&mut self, ring: &[u32], plane: Plane, place: impl FnOnce() -> String) -> Pieces {
+        // Projected along the largest component of the normal, so that the shape does not degenerate.
+        let facing = plane.normal.abs().max_position();
+        let flat: Vec<[f64; 2]> =
+            self.points(ring).map(|p| [p[(facing + 1) % 3], p[(facing + 2) % 3]]).collect();
+        let mut corners: Vec<u32> = Vec::new();
+        self.earcut.earcut_slice(&flat, &[], &mut corners);
+        if earcut::deviation(flat.iter().copied(), &[], &corners) > FLATNESS {
+            self.warnings.add(WarningKind::SelfCrossing, place);
+        }
+        let mut pieces = Vec::with_capacity(corners.len() / 3);
+        for triangle in corners.chunks_exact(3) {
+            let mut triangle: Vec<u32> = triangle.iter().map(|&i| ring[i as usize]).collect();
+            if let Some((own, area)) = self.measure(&triangle) {
+                let turned = own.normal.dot(plane.normal) < 0.0;
+                if turned {
+                    triangle.reverse();
+                }
+                pieces.push((triangle, if turned { own.reversed() } else { own }, area));
+            }
+        }
+        pieces
+    }
+}

@@ -1,0 +1,89 @@
+//! Warnings about scene files: what was dropped, changed or replaced, with counts.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+/// A problem in a face or a file that can be repaired.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum WarningKind {
+    /// A material file cannot be read. Its materials are missing.
+    MissingMaterialFile,
+    /// A material without a reflectance (`Kd`): the default is used.
+    MissingReflectance,
+    /// A face without a material, or with an undefined material: the default is used.
+    MissingMaterial,
+    /// A face with fewer than three distinct corners, or without area: dropped.
+    ZeroArea,
+    /// A face whose corners are not in one plane: divided into triangles.
+    NonPlanar,
+    /// A planar face that is not convex: divided into triangles.
+    Concave,
+    /// A face whose boundary crosses itself: divided into triangles, which may not cover the intended area.
+    SelfCrossing,
+    /// A face with the same corners and the same front as another one: dropped.
+    Duplicate,
+}
+
+/// How often one kind of problem occurred, and where first.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Warning {
+    /// Kind of problem.
+    pub kind: WarningKind,
+    /// Number of occurrences.
+    pub count: usize,
+    /// Place of the first occurrence.
+    pub first: String,
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let (noun, what) = match self.kind {
+            WarningKind::MissingMaterialFile => ("material file", "not read"),
+            WarningKind::MissingReflectance => ("material", "without Kd: default grey taken"),
+            WarningKind::MissingMaterial => ("face", "without a material: default grey taken"),
+            WarningKind::ZeroArea => ("face", "without area dropped"),
+            WarningKind::NonPlanar => ("non-planar face", "cut into triangles"),
+            WarningKind::Concave => ("concave face", "cut into triangles"),
+            WarningKind::SelfCrossing => ("face", "with a boundary that crosses itself"),
+            WarningKind::Duplicate => ("duplicated face", "dropped"),
+        };
+        let plural = if self.count == 1 { "" } else { "s" };
+        write!(f, "{} {noun}{plural} {what} (first: {})", self.count, self.first)
+    }
+}
+
+/// Warnings of a scene: at most one of each kind, in the order of the kinds.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Warnings(BTreeMap<WarningKind, Warning>);
+
+impl Warnings {
+    /// Counts one more occurrence. `place` is called only for the first one of a kind.
+    pub fn add(&mut self, kind: WarningKind, place: impl FnOnce() -> String) {
+        let warning =
+            self.0.entry(kind).or_insert_with(|| Warning { kind, count: 0, first: place() });
+        warning.count += 1;
+    }
+
+    /// All warnings.
+    pub fn iter(&self) -> impl Iterator<Item = &Warning> {
+        self.0.values()
+    }
+
+    /// Number of occurrences of a kind.
+    pub fn count(&self, kind: WarningKind) -> usize {
+        self.0.get(&kind).map_or(0, |w| w.count)
+    }
+
+    /// Whether there are no warnings.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Adds the counts of `others`. Of a kind in both, the place of `self` is kept.
+    pub fn and(mut self, others: Warnings) -> Warnings {
+        for (kind, other) in others.0 {
+            self.0.entry(kind).and_modify(|w| w.count += other.count).or_insert(other);
+        }
+        self
+    }
+}

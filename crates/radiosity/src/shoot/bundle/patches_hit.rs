@@ -1,0 +1,68 @@
+//! Finds the patches that the rays of a bundle hit.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+use glam::DVec3;
+
+use super::nearest::Nearest;
+use super::rays::{CHUNKS, LANES, Rays, of_chunk};
+use crate::mesh::{LocalEnvironment, Piece};
+
+/// Calls `report` with the patch (`None` for a back) and the rays that hit it, for all rays that `ended`. A patch
+/// can be reported several times.
+#[inline(always)]
+pub(crate) fn find_patches<S: Simd>(
+    simd: S,
+    rays: &Rays,
+    nearest: &Nearest,
+    environment: &LocalEnvironment,
+    ended: u64,
+    mut report: impl FnMut(Option<u32>, u64),
+) {
+    for hit in &nearest.hits {
+        let there = hit.rays & ended;
+        let piece = &environment.pieces[hit.piece as usize];
+        if hit.back || piece.is_back() {
+            report(None, there);
+            continue;
+        }
+        for chunk in (0..CHUNKS).filter(|&chunk| of_chunk(there, chunk) != 0) {
+            let slots = slots(simd, rays, nearest, chunk, piece);
+            let mut rest = of_chunk(there, chunk);
+            while rest != 0 {
+                let slot = slots[rest.trailing_zeros() as usize];
+                let alike = slots.simd_eq(slot).to_bitmask() & rest;
+                rest &= !alike;
+                let patch = environment.slots[slot as usize];
+                report(Some(patch), alike << (chunk * LANES));
+            }
+        }
+    }
+}
+
+/// The slots in which the rays of a chunk hit a piece, computed as in [`LocalEnvironment::patch_at`]. Slots are
+/// integers, which f64 represents exactly.
+#[inline(always)]
+fn slots<S: Simd>(
+    simd: S,
+    rays: &Rays,
+    nearest: &Nearest,
+    chunk: usize,
+    piece: &Piece,
+) -> f64x8<S> {
+    let distance = nearest.distance[chunk].load(simd);
+    let mut point = [distance; 3];
+    for (axis, point) in point.iter_mut().enumerate() {
+        *point = rays.origin[axis] + rays.direction[axis][chunk].load(simd) * distance;
+    }
+    let i = slot(point, piece.u, piece.u0, piece.nu);
+    let j = slot(point, piece.v, piece.v0, piece.nv);
+    f64::from(piece.first_slot) + (j * f64::from(piece.nu) + i)
+}
+
+/// The slot of points along one direction.
+#[inline(always)]
+fn slot<S: Simd>([x, y, z]: [f64x8<S>; 3], along: DVec3, start: f64, n: u32) -> f64x8<S> {
+    let along = x * along.x + y * along.y + z * along.z - start;
+    along.max(0.0).floor().min(f64::from(n - 1))
+}

@@ -1,0 +1,119 @@
+//! Shooting one ray at a time: slow and simple. Tests compare the fast path with it.
+
+use super::form_factors::FormFactors;
+use super::hemisphere::Hemisphere;
+use super::mask::Mask;
+use super::shot::{Emitter, Shot, Tally};
+use super::work::{Operation, Work};
+use crate::geometry::Ray;
+use crate::mesh::{LocalEnvironment, Side, Space};
+use crate::shoot::bundle::WIDTH;
+
+/// How the passage of a ray through an environment ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum End {
+    /// At a polygon.
+    Hit {
+        /// The polygon.
+        polygon: u32,
+        /// Metres from the ray's origin.
+        distance: f64,
+    },
+    /// Through a side of the environment.
+    Leaves(Side),
+}
+
+/// Like [`shoot`](crate::shoot), one ray at a time, testing the polygons cell by cell. For scenes without
+/// participating media.
+pub fn shoot_plainly(
+    space: &Space,
+    environment: &LocalEnvironment,
+    hemisphere: &Hemisphere,
+    emitter: &Emitter,
+    mask: &Mask,
+) -> Shot {
+    let frame = hemisphere.frame(emitter.centre, emitter.normal);
+    let form_factors = FormFactors::one_by_one(Tally::places(environment), hemisphere);
+    let mut tally = Tally::new(environment, mask, form_factors);
+    for pixel in mask.ones() {
+        let ray = Ray::new(emitter.centre, hemisphere.direction(frame, pixel));
+        cast_pixel(space, environment, &ray, emitter.polygon, pixel, &mut tally);
+    }
+    tally.finish()
+}
+
+/// Casts the ray of a pixel and counts how it ends.
+pub(crate) fn cast_pixel(
+    space: &Space,
+    environment: &LocalEnvironment,
+    ray: &Ray,
+    own_polygon: u32,
+    pixel: u32,
+    tally: &mut Tally,
+) {
+    let (bundle, bit) = (pixel as usize / WIDTH, 1 << (pixel as usize % WIDTH));
+    match cast(space, environment, ray, own_polygon, &mut tally.work) {
+        End::Hit { polygon, distance } => {
+            let front = space.facets.faces(polygon, ray);
+            let patch = environment.patch_at(polygon, ray.at(distance)).filter(|_| front);
+            tally.hit(patch, bundle, bit);
+        }
+        End::Leaves(side) => tally.leave(side, bundle, bit),
+    }
+}
+
+/// Follows one ray through an environment to the nearest hit or to the side through which it leaves.
+pub fn cast(
+    space: &Space,
+    environment: &LocalEnvironment,
+    ray: &Ray,
+    own_polygon: u32,
+    work: &mut Work,
+) -> End {
+    work.count(Operation::Ray, 1);
+    let start = space.grid.cell_of(ray.origin);
+    let Some(mut passage) = space.grid.enter(&environment.block, ray, start) else {
+        return End::Leaves(space.grid.side_towards(&environment.block, ray));
+    };
+    loop {
+        work.count(Operation::CellStep, 1);
+        let polygons = passage.polygons();
+        work.count(Operation::PolygonTest, polygons.len() as u64);
+        if let Some((polygon, distance)) =
+            nearest_hit(space, polygons, ray, own_polygon, passage.exit())
+        {
+            return End::Hit { polygon, distance };
+        }
+        if let Err(side) = passage.step() {
+            return End::Leaves(side);
+        }
+    }
+}
+
+/// The nearest polygon that a ray hits inside a cell. Of polygons at the same distance, fronts precede backs,
+/// then the lower index decides: each point of coplanar surfaces belongs to one polygon.
+#[inline]
+fn nearest_hit(
+    space: &Space,
+    polygons: &[u32],
+    ray: &Ray,
+    own_polygon: u32,
+    exit: f64,
+) -> Option<(u32, f64)> {
+    let mut nearest: Option<(u32, f64)> = None;
+    for &polygon in polygons {
+        if polygon == own_polygon {
+            continue;
+        }
+        let limit = nearest.map_or(exit, |(_, distance)| distance);
+        let Some(distance) = space.facets.hit(polygon, ray, limit) else { continue };
+        let replaces = nearest.is_none_or(|(other, other_distance)| {
+            distance < other_distance
+                || (space.facets.faces(polygon, ray) && !space.facets.faces(other, ray))
+        });
+        if replaces {
+            nearest = Some((polygon, distance));
+        }
+    }
+    nearest
+}
