@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use desim::Time;
 use lab::{OpenMachine, Plot, Table};
-use multicomputer::{KernelError, Machine, Network, Rung, exchange, hot_spot, ping_pong};
+use multicomputer::{KernelError, Machine, Network, NetworkModel, exchange, hot_spot, ping_pong};
 
 use crate::exit::Exit;
 
@@ -23,8 +23,8 @@ pub struct Arguments {
     /// Name of a machine, or path to a machine file
     machine: String,
     /// Model of the network: ideal, loggp, wormhole or flit [default: the machine file's]
-    #[arg(long, value_name = "RUNG")]
-    network: Option<Rung>,
+    #[arg(long, value_name = "MODEL")]
+    network: Option<NetworkModel>,
     /// Write the table (bench.csv) and its plots to this folder
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -33,9 +33,9 @@ pub struct Arguments {
 /// Measures; returns the table.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let machine = OpenMachine::load(&arguments.machine)?.machine;
-    let rung = arguments.network.or(machine.rung).unwrap_or(Rung::LogGp);
+    let rung = arguments.network.or(machine.network_model).unwrap_or(NetworkModel::LogGp);
     machine.network_on(rung).map_err(Exit::bad_input)?;
-    let most = if rung == Rung::Flit { LONGEST_OF_FLITS } else { u64::MAX };
+    let most = if rung == NetworkModel::Flit { LONGEST_OF_FLITS } else { u64::MAX };
     let sizes = SIZES.into_iter().filter(|&bytes| bytes <= most);
     let rows = sizes
         .map(|bytes| row(&machine, rung, bytes))
@@ -60,7 +60,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
 }
 
 /// Ping-pong of neighbours, exchange of all, and all to one, with messages of so many bytes.
-fn row(machine: &Machine, rung: Rung, bytes: u64) -> Result<Vec<String>, KernelError> {
+fn row(machine: &Machine, rung: NetworkModel, bytes: u64) -> Result<Vec<String>, KernelError> {
     let network = || -> Result<Box<dyn Network>, KernelError> { Ok(machine.network_on(rung)?) };
     let ranks = machine.compute_nodes();
     let partner = 1.min(ranks - 1);
@@ -89,7 +89,7 @@ fn row(machine: &Machine, rung: Rung, bytes: u64) -> Result<Vec<String>, KernelE
     ])
 }
 
-fn text(machine: &Machine, rung: Rung, table: &Table) -> String {
+fn text(machine: &Machine, rung: NetworkModel, table: &Table) -> String {
     let mut text = format!("{}, network {rung}\n\n", machine.title);
     text += "    bytes   one way us       MB/s  exchange us  hot spot us a message\n";
     for row in &table.rows {

@@ -6,7 +6,8 @@ use clap::Args;
 use desim::{Duration, Time};
 use lab::OpenMachine;
 use multicomputer::{
-    Load, LogGpParameters, Machine, Measured, NetworkParameters, Pattern, Rung, fluid_bound, replay,
+    Load, LogGpParameters, Machine, Measured, NetworkModel, NetworkParameters, Pattern,
+    fluid_bound, replay,
 };
 
 use crate::exit::Exit;
@@ -40,7 +41,7 @@ pub struct Arguments {
 /// Compares; returns a table, and how near the two models are.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let machine = OpenMachine::load(&arguments.machine)?.machine;
-    machine.network_on(Rung::Flit).map_err(Exit::bad_input)?;
+    machine.network_on(NetworkModel::Flit).map_err(Exit::bad_input)?;
     let mut text = format!("{}, messages of {} B\n", machine.title, arguments.bytes);
     text += "pattern        load  messages   wormhole us       flit us  difference\n";
     let mut farthest = (0.0_f64, String::new());
@@ -112,6 +113,6 @@ fn measure(
             replay(&trace, network.as_mut(), topology).map_err(|error| error.to_string())?;
         Ok::<_, String>(Measured::of(&load, &trace, &courses))
     };
-    let both = on(Rung::Wormhole).and_then(|worms| Ok([worms, on(Rung::Flit)?]));
+    let both = on(NetworkModel::Wormhole).and_then(|worms| Ok([worms, on(NetworkModel::Flit)?]));
     both.map_err(Exit::failure)
 }

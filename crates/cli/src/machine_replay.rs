@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use desim::Time;
 use lab::OpenMachine;
-use multicomputer::{ChannelUse, Course, Machine, Network, Rung, Trace, replay};
+use multicomputer::{ChannelUse, Machine, Network, NetworkModel, ReplayedMessage, Trace, replay};
 
 use crate::exit::Exit;
 
@@ -19,8 +19,8 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME", default_value = "paragon-xps")]
     machine: String,
     /// Model of the network: ideal, loggp, wormhole or flit [default: the machine file's]
-    #[arg(long, value_name = "RUNG")]
-    network: Option<Rung>,
+    #[arg(long, value_name = "MODEL")]
+    network: Option<NetworkModel>,
     /// Write the table to this CSV file, not to standard output
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -35,7 +35,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let file = arguments.trace.display().to_string();
     let text = lab::read_text(&arguments.trace)?;
     let trace = Trace::from_json(&text, &file, machine.nodes()).map_err(Exit::bad_input)?;
-    let rung = arguments.network.or(machine.rung).unwrap_or(Rung::LogGp);
+    let rung = arguments.network.or(machine.network_model).unwrap_or(NetworkModel::LogGp);
     let mut network = machine.network_on(rung).map_err(Exit::bad_input)?;
     let courses = replay(&trace, network.as_mut(), machine.topology()).map_err(Exit::failure)?;
     if let Some(path) = &arguments.channels {
@@ -49,12 +49,12 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     Ok(format!("{} messages; their courses are in {}.\n", courses.len(), path.display()))
 }
 
-fn table(trace: &Trace, courses: &[Course]) -> String {
+fn table(trace: &Trace, courses: &[ReplayedMessage]) -> String {
     let mut table = "id,from,to,bytes,sent_s,arrived_s,blocked_s,blocked_by\n".to_owned();
-    for (item, course) in trace.items.iter().zip(courses) {
+    for (item, course) in trace.messages.iter().zip(courses) {
         let (sent, arrived) = (seconds(course.sent.0), seconds(course.arrived.0));
         let blocked = seconds(course.blocked().0);
-        let by = course.blockers().into_iter().map(|index| trace.items[index].name.as_str());
+        let by = course.blockers().into_iter().map(|index| trace.messages[index].name.as_str());
         let by = by.collect::<Vec<_>>().join(" ");
         let (name, from, to, bytes) = (&item.name, item.from, item.to, item.bytes);
         let _ = writeln!(table, "{name},{from},{to},{bytes},{sent},{arrived},{blocked},{by}");

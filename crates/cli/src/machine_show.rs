@@ -20,7 +20,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let open = OpenMachine::load(&arguments.machine)?;
     let value: Value = serde_json::from_str(&open.text).map_err(Exit::failure)?;
-    let rung = open.machine.rung.map_or("auto", |rung| rung.name());
+    let rung = open.machine.network_model.map_or("auto", |rung| rung.name());
     let mut text = format!("{}\n{}\n\n", open.machine.title, drawing(&open.machine));
     let _ = writeln!(text, "Network model: {rung}. Numbers, from {}:\n", open.label);
     numbers(&mut text, "", &value);

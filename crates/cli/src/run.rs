@@ -30,8 +30,8 @@ pub struct Arguments {
     #[arg(long, value_name = "PATH=VALUE")]
     set: Vec<String>,
     /// Model of the network: ideal, loggp, wormhole, flit, or auto, the cheapest that will do;
-    /// short for --set network=RUNG
-    #[arg(long, value_name = "RUNG")]
+    /// short for --set network=MODEL
+    #[arg(long, value_name = "MODEL")]
     network: Option<String>,
     /// What the programs run on
     #[arg(long, value_enum, default_value = "simulation")]

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use multicomputer::{Machine, Model};
+use multicomputer::{Machine, ModelChoice};
 use radiosity::Rgb;
 use radiosity::glam::DVec3;
 use reference::Centres;
@@ -69,7 +69,7 @@ impl Explained<'_> {
 
     /// Radiosities of another run of the problem, one environment after the other.
     fn run(&self, point: &Experiment) -> Result<Vec<Rgb>, String> {
-        let point = Experiment { network: Some(Model::Ideal), ..point.clone() };
+        let point = Experiment { network: Some(ModelChoice::Ideal), ..point.clone() };
         let run = engine::run(self.problem, &point, self.kept, Arc::new(|| ()));
         let (_, radiosity) =
             engine::carry_out(&run, &point, On::Simulation, self.machine, 0, None)?;

@@ -27,7 +27,7 @@ pub fn check(path: &Path) -> Result<String, Fault> {
     if text.trim_start().starts_with('[') {
         let file = path.display().to_string();
         let trace = Trace::from_json(&text, &file, usize::MAX).map_err(Fault::complete)?;
-        return Ok(format!("a trace, {} messages", trace.items.len()));
+        return Ok(format!("a trace, {} messages", trace.messages.len()));
     }
     let document = Document::parse(path.display().to_string(), text)?;
     let has = |key: &str| document.value.get(key).is_some();

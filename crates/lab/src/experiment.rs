@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use multicomputer::Model;
+use multicomputer::ModelChoice;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -50,7 +50,7 @@ pub struct Experiment {
     /// Model of the network, in place of the one that the machine's file chooses. With it come the
     /// columns network_used, network_why, busiest_link and blocked_s.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub network: Option<Model>,
+    pub network: Option<ModelChoice>,
     /// How far the time on the network "auto" may be from that on the next finer one. Default: 1 %.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub network_tolerance: Option<Fraction>,

@@ -1,6 +1,8 @@
 //! Which model of the network a run is simulated on, and what it tells of the network.
 
-use multicomputer::{Choice, Machine, MachineError, Model, Record, Recorder, Rung};
+use multicomputer::{
+    AutoResult, Machine, MachineError, ModelChoice, NetworkModel, Record, Recorder,
+};
 use serde::{Deserialize, Serialize};
 use virtwall::{Outcome, Run, RunError, SharedObserver, simulate_observed};
 
@@ -26,8 +28,8 @@ pub struct NetworkFigures {
 ///
 /// # Errors
 /// What is missing.
-pub fn check(machine: &Machine, choice: Option<Model>) -> Result<(), MachineError> {
-    match choice.and_then(Model::rung) {
+pub fn check(machine: &Machine, choice: Option<ModelChoice>) -> Result<(), MachineError> {
+    match choice.and_then(ModelChoice::model) {
         Some(rung) => machine.network_on(rung).map(|_| ()),
         None => Ok(()),
     }
@@ -35,14 +37,14 @@ pub fn check(machine: &Machine, choice: Option<Model>) -> Result<(), MachineErro
 
 /// Whether results tell of the network: an experiment, or a machine's file, that leaves the model open
 /// wants to know what was chosen.
-pub fn tells(machine: &Machine, choice: Option<Model>) -> bool {
-    choice.is_some() || machine.rung.is_none()
+pub fn tells(machine: &Machine, choice: Option<ModelChoice>) -> bool {
+    choice.is_some() || machine.network_model.is_none()
 }
 
 /// Whether runs are simulated to find out which model will do: whoever observes one then has it simulated
 /// once more.
-pub fn is_open(machine: &Machine, choice: Option<Model>) -> bool {
-    choice.map_or(machine.rung, Model::rung).is_none()
+pub fn is_open(machine: &Machine, choice: Option<ModelChoice>) -> bool {
+    choice.map_or(machine.network_model, ModelChoice::model).is_none()
 }
 
 /// Simulates a run on the model that an experiment asks for, or else the machine's file, and tells
@@ -63,13 +65,14 @@ pub fn simulate(
         let outcome = virtwall::simulate_over(run, machine, network)?;
         Ok::<_, RunError>((outcome.time, outcome))
     };
-    let chosen = match point.network.map_or(machine.rung, Model::rung) {
+    let chosen = match point.network.map_or(machine.network_model, ModelChoice::model) {
         None => {
             let tolerance = point.network_tolerance.as_ref().map_or(TOLERANCE, |t| t.value());
-            let chosen = multicomputer::choose(machine, tolerance, over)?;
+            let chosen =
+                multicomputer::choose(&machine.parameters, machine.topology(), tolerance, over)?;
             if observer.is_some() {
                 // Pilots are not what is observed, and which run is the last one shows only then.
-                simulate_observed(run, machine, machine.network_on(chosen.rung)?, observer)?;
+                simulate_observed(run, machine, machine.network_on(chosen.model)?, observer)?;
             }
             chosen
         }
@@ -77,7 +80,7 @@ pub fn simulate(
             let (network, record) = Recorder::new(machine.network_on(rung)?);
             let answer = simulate_observed(run, machine, Box::new(network), observer)?;
             let time = answer.time;
-            Choice { rung, answer, time, record: record.take(), why: String::new() }
+            AutoResult { model: rung, answer, time, record: record.take(), why: String::new() }
         }
     };
     let figures = figures(machine, &chosen);
@@ -88,21 +91,21 @@ pub fn simulate(
 ///
 /// # Errors
 /// Why the run did not end.
-pub fn rung(run: &Run, machine: &Machine, point: &Experiment) -> Result<Rung, RunError> {
-    match point.network.map_or(machine.rung, Model::rung) {
+pub fn rung(run: &Run, machine: &Machine, point: &Experiment) -> Result<NetworkModel, RunError> {
+    match point.network.map_or(machine.network_model, ModelChoice::model) {
         Some(rung) => Ok(rung),
         None => {
             let (_, figures) = simulate(run, machine, point, None)?;
-            Ok(figures.and_then(|figures| figures.rung.parse().ok()).unwrap_or(Rung::LogGp))
+            Ok(figures.and_then(|figures| figures.rung.parse().ok()).unwrap_or(NetworkModel::LogGp))
         }
     }
 }
 
-fn figures(machine: &Machine, chosen: &Choice<Outcome>) -> NetworkFigures {
+fn figures(machine: &Machine, chosen: &AutoResult<Outcome>) -> NetworkFigures {
     let record: &Record = &chosen.record;
     let links = machine.parameters.links.as_ref();
     NetworkFigures {
-        rung: chosen.rung.to_string(),
+        rung: chosen.model.to_string(),
         why: chosen.why.clone(),
         busiest_link: links.map(|l| record.busiest_link(machine.topology(), l, chosen.time)),
         blocked_s: record.blocked().as_seconds_f64(),

@@ -2,14 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use multicomputer::Rung;
+use multicomputer::NetworkModel;
 
 use crate::plan::{Plan, Run, all_else};
 use crate::runner::{Ending, Endings};
 
 /// The finest model of the network on which there is a run, and its time in virtual seconds, by all
 /// that is swept besides the network.
-pub type Finest = BTreeMap<Vec<usize>, (Rung, f64)>;
+pub type Finest = BTreeMap<Vec<usize>, (NetworkModel, f64)>;
 
 /// The finest runs of a plan.
 pub fn finest(plan: &Plan, endings: &Endings) -> Finest {
@@ -27,14 +27,14 @@ pub fn finest(plan: &Plan, endings: &Endings) -> Finest {
 fn timed<'a>(
     plan: &'a Plan,
     endings: &'a Endings,
-) -> impl Iterator<Item = (&'a Run, Rung, f64)> + use<'a> {
+) -> impl Iterator<Item = (&'a Run, NetworkModel, f64)> + use<'a> {
     plan.runs.iter().zip(&endings.runs).filter_map(|(run, ending)| {
         let (rung, time) = of(ending.as_ref()?)?;
         Some((run, rung, time))
     })
 }
 
-fn of(ending: &Ending) -> Option<(Rung, f64)> {
+fn of(ending: &Ending) -> Option<(NetworkModel, f64)> {
     let figures = ending.as_ref().ok()?;
     let rung = figures.network.as_ref()?.rung.parse().ok()?;
     Some((rung, figures.time_s?))

@@ -1,4 +1,4 @@
-//! Rungs of the ladder of networks, by messages a second of the host.
+//! Models of the ladder of networks, by messages a second of the host.
 
 #![allow(missing_docs, reason = "a benchmark has no users")]
 
@@ -6,7 +6,7 @@ mod exchange;
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use multicomputer::Rung;
+use multicomputer::NetworkModel;
 
 /// Messages of a round: 56 nodes × 4 neighbours.
 const ROUNDS: u64 = 100;
@@ -15,8 +15,8 @@ fn main() {
     divan::main();
 }
 
-#[divan::bench(args = exchange::RUNGS)]
-fn network(bencher: Bencher, rung: Rung) {
+#[divan::bench(args = exchange::OURS)]
+fn network(bencher: Bencher, model: NetworkModel) {
     let messages = (exchange::COLUMNS * exchange::ROWS * 4) as u64 * ROUNDS;
-    bencher.counter(ItemsCount::new(messages)).bench(|| exchange::exchange(rung, ROUNDS));
+    bencher.counter(ItemsCount::new(messages)).bench(|| exchange::exchange(model, ROUNDS));
 }

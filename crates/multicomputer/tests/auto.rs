@@ -1,4 +1,4 @@
-//! The choice of a rung, and the record on which it rests.
+//! The choice of a model, and the record on which it rests.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
 
@@ -7,7 +7,7 @@ use std::fs;
 
 use desim::{Duration, Simulation, Time};
 use multicomputer::{
-    Choice, Machine, Multicomputer, Network, Recorder, Rung, choose, exchange, hot_spot,
+    AutoResult, Machine, Multicomputer, Network, NetworkModel, Recorder, choose, exchange, hot_spot,
 };
 use serde_json::Value;
 
@@ -24,9 +24,9 @@ fn chosen(
     machine: &Machine,
     tolerance: f64,
     program: impl Fn(&Machine, Box<dyn Network>) -> Time,
-) -> Choice<()> {
+) -> AutoResult<()> {
     let run = |network| Ok::<_, Infallible>((program(machine, network), ()));
-    choose(machine, tolerance, run).unwrap()
+    choose(&machine.parameters, machine.topology(), tolerance, run).unwrap()
 }
 
 /// Two nodes that compute for a second and then exchange a message.
@@ -47,10 +47,10 @@ fn computes(machine: &Machine, network: Box<dyn Network>) -> Time {
 }
 
 #[test]
-fn the_cheapest_rung_is_chosen_and_it_is_told_why() {
+fn the_cheapest_model_is_chosen_and_it_is_told_why() {
     let paragon = machine(&paragon());
     let idle = chosen(&paragon, 0.01, computes);
-    assert_eq!(idle.rung, Rung::Ideal);
+    assert_eq!(idle.model, NetworkModel::Ideal);
     // 105 µs of a second.
     assert_eq!(
         idle.why,
@@ -58,20 +58,20 @@ fn the_cheapest_rung_is_chosen_and_it_is_told_why() {
          most 0.011 %"
     );
     let strict = chosen(&paragon, 1e-5, computes);
-    assert_eq!(strict.rung, Rung::LogGp);
+    assert_eq!(strict.model, NetworkModel::LogGp);
     assert_eq!(strict.time, idle.time + Duration(105_055_385));
 
     // Nothing but messages, each port on its own: LogGP is enough.
     let exchanged = chosen(&paragon, 0.01, |machine, network| {
         exchange(machine, network, 16, 4_096, 2).unwrap()
     });
-    assert_eq!(exchanged.rung, Rung::LogGp, "{}", exchanged.why);
+    assert_eq!(exchanged.model, NetworkModel::LogGp, "{}", exchanged.why);
 
     // All send to one: its way in has to be shared, which LogGP does not know.
     let rushed = chosen(&paragon, 0.01, |machine, network| {
         hot_spot(machine, network, 16, 4_096, 2).unwrap()
     });
-    assert_eq!(rushed.rung, Rung::Wormhole, "{}", rushed.why);
+    assert_eq!(rushed.model, NetworkModel::Wormhole, "{}", rushed.why);
     assert!(rushed.record.blocked() > Duration::ZERO);
 }
 
@@ -82,20 +82,20 @@ fn the_choice_ends_where_the_machine_s_file_does() {
     let rushed = chosen(&machine(&file), 0.01, |machine, network| {
         hot_spot(machine, network, 16, 4_096, 2).unwrap()
     });
-    assert_eq!(rushed.rung, Rung::LogGp);
+    assert_eq!(rushed.model, NetworkModel::LogGp);
     assert_eq!(rushed.why, "the machine's file says too little for wormhole");
 }
 
 #[test]
 fn a_recorder_changes_nothing_and_tells_all() {
     let paragon = machine(&paragon());
-    let network = || paragon.network_on(Rung::Wormhole).unwrap();
+    let network = || paragon.network_on(NetworkModel::Wormhole).unwrap();
     let (recorder, record) = Recorder::new(network());
     let end = hot_spot(&paragon, Box::new(recorder), 8, 4_096, 3).unwrap();
     assert_eq!(end, hot_spot(&paragon, network(), 8, 4_096, 3).unwrap());
     let record = record.borrow();
-    assert_eq!(record.letters.len(), 21);
-    assert!(record.letters.iter().all(|letter| letter.arrived.is_some_and(|at| at <= end)));
+    assert_eq!(record.messages.len(), 21);
+    assert!(record.messages.iter().all(|message| message.arrived.is_some_and(|at| at <= end)));
     // The link from node 4 to node 0 carries what comes from the second row: 12 messages.
     let links = paragon.parameters.links.clone().unwrap();
     let busiest = record.busiest_link(paragon.topology(), &links, end);

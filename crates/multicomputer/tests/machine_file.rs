@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-use multicomputer::{Machine, MachineError, Rung, Shape, machine_schema};
+use multicomputer::{Machine, MachineError, NetworkModel, Shape, machine_schema};
 use serde_json::{Value, json};
 
 fn machines(name: &str) -> PathBuf {
@@ -26,7 +26,7 @@ fn the_paragon() {
     assert_eq!(machine.processor.clock, 50e6);
     assert_eq!(machine.processor.price("cell_step"), Some(64.0 * machine.processor.scale / 50e6));
     assert_eq!(machine.processor.price("daydream"), None);
-    assert_eq!(machine.rung, Some(Rung::LogGp));
+    assert_eq!(machine.network_model, Some(NetworkModel::LogGp));
     let network = machine.parameters.software.unwrap();
     // The published latency is what an empty message takes.
     let latency = network.send_overhead + network.latency + network.receive_overhead;
@@ -112,7 +112,7 @@ fn the_paragon_with_memory() {
 fn an_ideal_network_needs_no_parameters() {
     let mut file = paragon();
     file["network"] = json!({ "model": "ideal" });
-    assert_eq!(read(&file).unwrap().rung, Some(Rung::Ideal));
+    assert_eq!(read(&file).unwrap().network_model, Some(NetworkModel::Ideal));
 }
 
 #[test]
@@ -159,18 +159,18 @@ fn caches_are_whole_sets_of_whole_lines() {
 }
 
 #[test]
-fn a_rung_that_the_file_says_too_little_for_is_refused() {
+fn a_model_that_the_file_says_too_little_for_is_refused() {
     let mut file = paragon();
     file["network"] = json!({ "model": "ideal" });
     let message =
-        |file: &Value, rung| read(file).unwrap().network_on(rung).err().unwrap().to_string();
+        |file: &Value, model| read(file).unwrap().network_on(model).err().unwrap().to_string();
     let title = "Intel Paragon XP/S, 56 compute nodes and 2 service nodes";
     assert_eq!(
-        message(&file, Rung::LogGp),
+        message(&file, NetworkModel::LogGp),
         format!(r#"the {title} has no "network.parameters", which its network needs as "loggp""#)
     );
     assert_eq!(
-        message(&without("/network", "links"), Rung::Flit),
+        message(&without("/network", "links"), NetworkModel::Flit),
         format!(r#"the {title} has no "network.links", which its network needs as "flit""#)
     );
 }

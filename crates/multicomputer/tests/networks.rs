@@ -1,4 +1,4 @@
-//! The rungs of the ladder: closed formulas, fixtures, bars, and what always holds.
+//! The models of the ladder: closed formulas, fixtures, bars, and what always holds.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
 
@@ -8,9 +8,9 @@ use std::path::PathBuf;
 
 use desim::{Duration, Simulation, Time};
 use multicomputer::{
-    Channel, Course, Item, LinkParameters, Load, LogGpParameters, Machine, Measured, Multicomputer,
-    Network, NetworkParameters, Pattern, Place, Rung, Shape, Topology, Trace, exchange, ping_pong,
-    replay,
+    Channel, LinkParameters, Load, LogGpParameters, Machine, Measured, Multicomputer, Network,
+    NetworkModel, NetworkParameters, Pattern, Place, ReplayedMessage, Shape, Topology, Trace,
+    TraceMessage, exchange, ping_pong, replay,
 };
 use proptest::prelude::*;
 
@@ -23,57 +23,65 @@ fn machine(name: &str) -> Machine {
     Machine::from_json(&fs::read_to_string(machines(&file)).unwrap(), &file).unwrap()
 }
 
-/// A fixture's courses over a rung.
-fn fixture(trace: &str, machine_name: &str, rung: Rung) -> Result<Vec<Course>, String> {
+/// A fixture's courses over a model.
+fn fixture(
+    trace: &str,
+    machine_name: &str,
+    model: NetworkModel,
+) -> Result<Vec<ReplayedMessage>, String> {
     let machine = machine(&format!("fixtures/{machine_name}"));
     let file = format!("fixtures/{trace}.json");
     let text = fs::read_to_string(machines(&file)).unwrap();
     let trace = Trace::from_json(&text, &file, machine.nodes()).unwrap();
-    let mut network = machine.network_on(rung).unwrap();
+    let mut network = machine.network_on(model).unwrap();
     replay(&trace, network.as_mut(), machine.topology()).map_err(|error| error.to_string())
 }
 
-fn seconds(courses: &[Course]) -> Vec<f64> {
+fn seconds(courses: &[ReplayedMessage]) -> Vec<f64> {
     courses.iter().map(|course| course.arrived.as_seconds_f64()).collect()
 }
 
-const ABOVE_IDEAL: [Rung; 3] = [Rung::LogGp, Rung::Wormhole, Rung::Flit];
-const CONTENDING: [Rung; 2] = [Rung::Wormhole, Rung::Flit];
+const ABOVE_IDEAL: [NetworkModel; 3] =
+    [NetworkModel::LogGp, NetworkModel::Wormhole, NetworkModel::Flit];
+const CONTENDING: [NetworkModel; 2] = [NetworkModel::Wormhole, NetworkModel::Flit];
 
 #[test]
 fn a_blocked_worm_blocks_who_comes_behind() {
-    let worms = fixture("head-of-line", "row-of-4", Rung::Wormhole).unwrap();
+    let worms = fixture("head-of-line", "row-of-4", NetworkModel::Wormhole).unwrap();
     assert_eq!(seconds(&worms), [1.0, 2.0, 3.0]);
-    let blocked = |course: &Course| (course.blocked().as_seconds_f64(), course.blockers());
+    let blocked = |course: &ReplayedMessage| (course.blocked().as_seconds_f64(), course.blockers());
     assert_eq!(
         worms.iter().map(blocked).collect::<Vec<_>>(),
         [(0.0, vec![]), (1.0, vec![0]), (2.0, vec![1]),]
     );
     // The pipelines fill: a flit's time, 100 µs, a hop, and eight flits wait in each buffer.
-    let flits = fixture("head-of-line", "row-of-4", Rung::Flit).unwrap();
+    let flits = fixture("head-of-line", "row-of-4", NetworkModel::Flit).unwrap();
     for (course, expected) in flits.iter().zip([1.0, 2.0, 3.0]) {
         assert!((course.arrived.as_seconds_f64() - expected).abs() < 2e-3, "{course:?}");
     }
-    assert_eq!(flits.iter().map(Course::blockers).collect::<Vec<_>>(), [vec![], vec![0], vec![1]]);
+    assert_eq!(
+        flits.iter().map(ReplayedMessage::blockers).collect::<Vec<_>>(),
+        [vec![], vec![0], vec![1]]
+    );
     // Without contention only the port is waited for.
-    let free = fixture("head-of-line", "row-of-4", Rung::LogGp).unwrap();
+    let free = fixture("head-of-line", "row-of-4", NetworkModel::LogGp).unwrap();
     assert_eq!(seconds(&free), [1.0, 1.0, 2.0]);
 }
 
 #[test]
 fn a_ring_without_virtual_channels_deadlocks_and_names_the_circle() {
-    for rung in CONTENDING {
-        let message = fixture("round-the-ring", "ring-of-4", rung).unwrap_err();
+    for model in CONTENDING {
+        let message = fixture("round-the-ring", "ring-of-4", model).unwrap_err();
         let circle = [
             r#""from-2" (2 to 0) waits for link 3→0, held by "#,
             r#""from-3" (3 to 1) waits for link 0→1, held by "#,
             r#""from-0" (0 to 2) waits for link 1→2, held by "#,
             r#""from-1" (1 to 3) waits for link 2→3, held by "#,
         ];
-        assert!(message.contains("deadlock in the network: "), "{rung}: {message}");
-        assert!(circle.iter().all(|part| message.contains(part)), "{rung}: {message}");
-        let courses = fixture("round-the-ring", "ring-of-4-two-channels", rung).unwrap();
-        assert!(courses.iter().all(|course| course.arrived > Time::ZERO), "{rung}");
+        assert!(message.contains("deadlock in the network: "), "{model}: {message}");
+        assert!(circle.iter().all(|part| message.contains(part)), "{model}: {message}");
+        let courses = fixture("round-the-ring", "ring-of-4-two-channels", model).unwrap();
+        assert!(courses.iter().all(|course| course.arrived > Time::ZERO), "{model}");
     }
 }
 
@@ -85,17 +93,17 @@ fn alone_a_message_takes_what_the_formula_says() {
         let (found, expected) = (found.as_seconds_f64(), expected.as_seconds_f64());
         assert!((found / expected - 1.0).abs() < 1e-3, "{what}: {found} for {expected}");
     };
-    for rung in ABOVE_IDEAL {
-        let network = || paragon.network_on(rung).unwrap();
+    for model in ABOVE_IDEAL {
+        let network = || paragon.network_on(model).unwrap();
         for bytes in [0, 1, 100, 4_096, 65_536] {
             for (partner, hops) in [(1, 1), (2, 2), (55, 16)] {
-                let what = format!("{rung}, {bytes} B, 0 to {partner}");
+                let what = format!("{model}, {bytes} B, 0 to {partner}");
                 let one_way = software.one_way(bytes, hops);
                 let time = ping_pong(&paragon, network(), (0, partner), bytes, 3).unwrap();
                 near(time, one_way * 6, &what);
             }
             let items = [(0, 1), (1, 0)].map(|(from, to)| item(Time::ZERO, from, to, bytes));
-            let trace = Trace { items: items.to_vec() };
+            let trace = Trace { messages: items.to_vec() };
             let courses = replay(&trace, network().as_mut(), paragon.topology()).unwrap();
             for course in courses {
                 near(course.arrived, software.one_way(bytes, 1), "exchange");
@@ -104,21 +112,21 @@ fn alone_a_message_takes_what_the_formula_says() {
     }
 }
 
-fn item(at: Time, from: usize, to: usize, bytes: u64) -> Item {
-    Item { name: String::new(), at, from, to, bytes, after: Vec::new() }
+fn item(at: Time, from: usize, to: usize, bytes: u64) -> TraceMessage {
+    TraceMessage { name: String::new(), at, from, to, bytes, after: Vec::new() }
 }
 
 #[test]
 fn an_exchange_of_neighbours_costs_the_same_with_and_without_contention() {
     // Ports are slower than links, and a row's ends are three links apart, which others use too.
     let paragon = machine("paragon-xps");
-    let time = |rung| {
-        let network = paragon.network_on(rung).unwrap();
+    let time = |model| {
+        let network = paragon.network_on(model).unwrap();
         exchange(&paragon, network, 56, 4_096, 2).unwrap().as_seconds_f64()
     };
-    let expected = time(Rung::LogGp);
-    for rung in CONTENDING {
-        assert!((time(rung) / expected - 1.0).abs() < 2e-3, "{rung}: {} {expected}", time(rung));
+    let expected = time(NetworkModel::LogGp);
+    for model in CONTENDING {
+        assert!((time(model) / expected - 1.0).abs() < 2e-3, "{model}: {} {expected}", time(model));
     }
 }
 
@@ -141,7 +149,7 @@ fn flits_saturate_where_booksim_s_do() {
         let until = Time(8_000_000);
         let load = Load { pattern: Pattern::Uniform, bytes: 20, every, until, seed: 1996 };
         let trace = load.trace(&topology, 64);
-        let mut network = bare(1, 5, 1).build(Rung::Flit, &topology).unwrap();
+        let mut network = bare(1, 5, 1).build(NetworkModel::Flit, &topology).unwrap();
         let courses = replay(&trace, network.as_mut(), &topology).unwrap();
         Measured::of(&load, &trace, &courses).throughput / 64e9
     };
@@ -151,7 +159,7 @@ fn flits_saturate_where_booksim_s_do() {
     assert!((0.23 * 0.9..0.24 * 1.1).contains(&saturated), "{saturated}");
 }
 
-/// Mean latencies of both rungs with contention, below saturation: where flits take less than thrice
+/// Mean latencies of both models with contention, below saturation: where flits take less than thrice
 /// as long as on an empty network.
 #[test]
 fn worms_take_as_long_as_flits() {
@@ -169,8 +177,8 @@ fn worms_take_as_long_as_flits() {
             let until = Time::ZERO + every * 30;
             let load = Load { pattern, bytes: 4_096, every, until, seed: 1996 };
             let trace = load.trace(&topology, 64);
-            let [worms, flits] = CONTENDING.map(|rung| {
-                let mut network = bare(32, 2, 1).build(rung, &topology).unwrap();
+            let [worms, flits] = CONTENDING.map(|model| {
+                let mut network = bare(32, 2, 1).build(model, &topology).unwrap();
                 let courses = replay(&trace, network.as_mut(), &topology).unwrap();
                 Measured::of(&load, &trace, &courses).latency
             });
@@ -193,9 +201,9 @@ fn golden_courses_of_a_reduction() {
     ]"#;
     let paragon = machine("paragon-xps");
     let trace = Trace::from_json(text, "t.json", paragon.nodes()).unwrap();
-    let mut network = paragon.network_on(Rung::Wormhole).unwrap();
+    let mut network = paragon.network_on(NetworkModel::Wormhole).unwrap();
     let courses = replay(&trace, network.as_mut(), paragon.topology()).unwrap();
-    let lines = courses.iter().zip(&trace.items).map(|(course, item)| {
+    let lines = courses.iter().zip(&trace.messages).map(|(course, item)| {
         let (sent, arrived, blocked) = (course.sent, course.arrived, course.blocked());
         format!("{} {sent} {arrived} {blocked} {:?}", item.name, course.blockers())
     });
@@ -221,13 +229,13 @@ fn shapes() -> impl Strategy<Value = Shape> {
 }
 
 proptest! {
-    /// Any traffic, on any topology and rung: every message arrives once, in order between each
+    /// Any traffic, on any topology and model: every message arrives once, in order between each
     /// pair, and not before the formula says; no channel carries two messages at a time.
     #[test]
     fn messages_arrive_once_in_order_and_not_early(
         shape in shapes(),
         letters in prop::collection::vec((0..100_usize, 0..100_usize, 1..600_u64, 0..900_u64), 1..40),
-        rung in prop::sample::select(ABOVE_IDEAL.to_vec()),
+        model in prop::sample::select(ABOVE_IDEAL.to_vec()),
     ) {
         let topology = Topology::new(shape);
         let places = topology.places();
@@ -236,14 +244,14 @@ proptest! {
         let items = letters.iter().map(|&(from, to, bytes, at)| {
             item(Time(at * 1_000), from % places, to % places, bytes)
         });
-        let trace = Trace { items: items.collect() };
-        let mut network = parameters.build(rung, &topology).unwrap();
+        let trace = Trace { messages: items.collect() };
+        let mut network = parameters.build(model, &topology).unwrap();
         let courses = replay(&trace, network.as_mut(), &topology).unwrap();
         let mut lasts = BTreeMap::new();
-        let mut order: Vec<usize> = (0..trace.items.len()).collect();
+        let mut order: Vec<usize> = (0..trace.messages.len()).collect();
         order.sort_by_key(|&i| (courses[i].sent, i));
         for i in order {
-            let (item, course) = (&trace.items[i], &courses[i]);
+            let (item, course) = (&trace.messages[i], &courses[i]);
             let places = [item.from, item.to].map(Place::new);
             let least = software.one_way(item.bytes, topology.hops(places[0], places[1]));
             prop_assert!(course.arrived >= course.sent + least);
@@ -251,7 +259,7 @@ proptest! {
             let last = lasts.insert((item.from, item.to), course.arrived);
             prop_assert!(last.is_none_or(|last| last <= course.arrived));
         }
-        one_at_a_time(&trace, &courses, network.as_ref(), rung)?;
+        one_at_a_time(&trace, &courses, network.as_ref(), model)?;
     }
 
     /// First come, first served: heads of worms from everywhere reach a crossbar's way out in the
@@ -259,12 +267,12 @@ proptest! {
     #[test]
     fn who_comes_first_is_served_first(
         starts in prop::collection::vec(0..2_000_u64, 2..12),
-        rung in prop::sample::select(CONTENDING.to_vec()),
+        model in prop::sample::select(CONTENDING.to_vec()),
     ) {
         let topology = Topology::new(Shape::Crossbar { places: 13 });
         let items = starts.iter().enumerate().map(|(i, &at)| item(Time(at * 1_000), i + 1, 0, 400));
-        let trace = Trace { items: items.collect() };
-        let mut network = bare(4, 2, 1).build(rung, &topology).unwrap();
+        let trace = Trace { messages: items.collect() };
+        let mut network = bare(4, 2, 1).build(model, &topology).unwrap();
         let courses = replay(&trace, network.as_mut(), &topology).unwrap();
         let mut order: Vec<usize> = (0..starts.len()).collect();
         order.sort_by_key(|&i| (starts[i], i));
@@ -276,9 +284,9 @@ proptest! {
 /// messages came into a node one after the other.
 fn one_at_a_time(
     trace: &Trace,
-    courses: &[Course],
+    courses: &[ReplayedMessage],
     network: &dyn Network,
-    rung: Rung,
+    model: NetworkModel,
 ) -> Result<(), TestCaseError> {
     let end = courses.iter().map(|course| course.arrived).max().unwrap_or_default();
     for used in network.channel_use() {
@@ -289,11 +297,11 @@ fn one_at_a_time(
         prop_assert!(used.held <= (end - Time::ZERO) * lanes, "{used:?}");
         prop_assert!(used.carrying <= end - Time::ZERO, "{used:?}");
     }
-    if rung == Rung::LogGp {
+    if model == NetworkModel::LogGp {
         return Ok(());
     }
     let mut arrivals: Vec<_> =
-        trace.items.iter().zip(courses).map(|(i, c)| (i.to, c.arrived, i.bytes)).collect();
+        trace.messages.iter().zip(courses).map(|(i, c)| (i.to, c.arrived, i.bytes)).collect();
     arrivals.sort_unstable();
     for pair in arrivals.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
         prop_assert!(pair[1].1 >= pair[0].1 + Duration(250) * pair[1].2, "{pair:?}");

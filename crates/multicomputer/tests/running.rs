@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use desim::{Duration, Simulation, Time};
-use multicomputer::{Machine, MachineError, Multicomputer, NodeAccount, Rung};
+use multicomputer::{Machine, MachineError, Multicomputer, NetworkModel, NodeAccount};
 use proptest::prelude::*;
 use serde_json::{Value, json};
 
@@ -174,7 +174,7 @@ fn waiting_ends_with_mail_or_with_the_time() {
 fn an_ideal_network_costs_nothing() {
     let simulation = Simulation::new();
     let mut ideal = machine();
-    ideal.rung = Some(Rung::Ideal);
+    ideal.network_model = Some(NetworkModel::Ideal);
     let multicomputer = Multicomputer::<()>::new(&simulation.handle(), &ideal, 2).unwrap();
     let (sender, receiver) = (multicomputer.node(0), multicomputer.node(1));
     simulation.handle().spawn("sender", async move { sender.send(1, 1_000_000, ()).await });

@@ -31,9 +31,9 @@ fn numbers_are_names_too() {
     third["after"] = json!([7, "a"]);
     let text = json!([good("a"), second, third]).to_string();
     let trace = Trace::from_json(&text, "t.json", 4).unwrap();
-    assert_eq!(trace.items[1].name, "7");
-    assert_eq!(trace.items[1].after, [0]);
-    assert_eq!(trace.items[2].after, [0, 1]);
+    assert_eq!(trace.messages[1].name, "7");
+    assert_eq!(trace.messages[1].after, [0]);
+    assert_eq!(trace.messages[2].after, [0, 1]);
 }
 
 #[test]

@@ -2,11 +2,11 @@
 
 use std::fmt::Write;
 
-use multicomputer::Rung;
+use multicomputer::NetworkModel;
 use serde::Serialize;
 
 use crate::cpu::{Spread, rounded, timed};
-use crate::exchange::{BYTES, COLUMNS, ROWS, RUNGS, exchange, neighbours, paragon};
+use crate::exchange::{BYTES, COLUMNS, OURS, ROWS, exchange, neighbours, paragon};
 use crate::peer::{Peer, Program, Recipe};
 
 /// SimGrid's harness.
@@ -52,24 +52,24 @@ type Measured = (u64, f64, f64);
 /// What is wrong with SimGrid's harness.
 pub fn measure(simgrid: &Program, rounds: u16) -> Result<Vec<Row>, String> {
     let mut version = String::new();
-    let mut measured: Vec<Vec<Measured>> = vec![Vec::new(); RUNGS.len() + MODELS.len()];
+    let mut measured: Vec<Vec<Measured>> = vec![Vec::new(); OURS.len() + MODELS.len()];
     for round in 0..=rounds {
         for (network, measured) in measured.iter_mut().enumerate() {
-            let figures = match RUNGS.get(network) {
+            let figures = match OURS.get(network) {
                 Some(&rung) => ours(rung),
-                None => theirs(simgrid, MODELS[network - RUNGS.len()], &mut version)?,
+                None => theirs(simgrid, MODELS[network - OURS.len()], &mut version)?,
             };
             if round > 0 {
                 measured.push(figures);
             }
         }
     }
-    let names = RUNGS.iter().map(|rung| format!("Virtwall, {rung}"));
+    let names = OURS.iter().map(|rung| format!("Virtwall, {rung}"));
     let names = names.chain(MODELS.map(|model| format!("SimGrid {version}, {model}")));
     let rate = |measured: &Vec<Measured>| {
         Spread::of(measured.iter().map(|(messages, _, cpu)| *messages as f64 / cpu).collect())
     };
-    let default = rate(&measured[RUNGS.len()]).median;
+    let default = rate(&measured[OURS.len()]).median;
     let rows = names.zip(&measured).map(|(network, measured)| {
         let ((messages, virtual_seconds, _), rate) = (measured[0], rate(measured));
         Row {
@@ -85,7 +85,7 @@ pub fn measure(simgrid: &Program, rounds: u16) -> Result<Vec<Row>, String> {
     Ok(rows.collect())
 }
 
-fn ours(rung: Rung) -> Measured {
+fn ours(rung: NetworkModel) -> Measured {
     let ((messages, end), seconds) = timed(|| exchange(rung, ROUNDS));
     (messages, end.as_seconds_f64(), seconds)
 }

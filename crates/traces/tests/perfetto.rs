@@ -7,7 +7,7 @@ mod common;
 mod reader;
 
 use common::{PROCESSORS, paragon, record};
-use multicomputer::{Foretold, Ideal, MessageLayer};
+use multicomputer::{ContentionFree, Ideal, MessageLayer};
 use reader::{Read, read};
 use traces::{Format, Sample};
 use virtwall::{Activity, MessageKind, Recording};
@@ -56,7 +56,7 @@ fn messages_are_those_of_the_run() {
         handover: Some(desim::Duration::from_seconds_f64(1e-5)),
         ..MessageLayer::default()
     };
-    let free = || Box::new(Foretold::new(Ideal));
+    let free = || Box::new(ContentionFree::new(Ideal));
     let runs = [
         record(&plain, plain.network()),
         record(&plain, free()),

@@ -37,7 +37,7 @@ fn record(run: &Run, machine: &Machine) -> (Outcome, Recording) {
 fn machines() -> [Machine; 4] {
     let plain = paragon();
     let mut ideal = paragon();
-    ideal.rung = Some(multicomputer::Rung::Ideal);
+    ideal.network_model = Some(multicomputer::NetworkModel::Ideal);
     let packets = Packets { bytes: 1_024, time: Duration::from_seconds_f64(1e-4) };
     let layer = MessageLayer {
         packets: Some(packets),

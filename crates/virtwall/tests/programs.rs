@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use common::{grey, paragon, problem, rules, same, scene, sides, two_rooms_cut};
 use desim::{Duration, Time};
-use multicomputer::{Delivery, Foretold, Formula, Message};
+use multicomputer::{ContentionFree, Delivery, Formula, Message};
 use virtwall::{
     Ending, KeptShots, Outcome, Problem, Rules, Run, RunError, run_on_threads, simulate,
     simulate_over,
@@ -127,7 +127,8 @@ impl Formula for SlowMasks {
 fn a_premature_end_is_told() {
     let problem = two_rooms_cut([4, 2, 1]);
     let run = run(&problem, 8, rules());
-    let outcome = simulate_over(&run, &paragon(), Box::new(Foretold::new(SlowMasks))).unwrap();
+    let outcome =
+        simulate_over(&run, &paragon(), Box::new(ContentionFree::new(SlowMasks))).unwrap();
     let Ending::TooEarly { lost } = outcome.ending else { panic!("{:?}", outcome.ending) };
     assert!(lost > 0.0 && lost < 1.0, "{lost}");
     let in_transit = outcome.energy.in_transit.element_sum();

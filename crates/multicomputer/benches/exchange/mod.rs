@@ -1,11 +1,11 @@
-//! What the network rungs are measured with: every node of a Paragon sends to four others, again and
+//! What the network models are measured with: every node of a Paragon sends to four others, again and
 //! again.
 
 use std::cell::Cell;
 use std::rc::Rc;
 
 use desim::{Simulation, Time};
-use multicomputer::{Machine, Multicomputer, Rung};
+use multicomputer::{Machine, Multicomputer, NetworkModel};
 
 /// Nodes, as columns and rows; they stand on the first rows of the machine's mesh.
 pub const COLUMNS: usize = 4;
@@ -20,8 +20,9 @@ pub fn paragon() -> Machine {
     Machine::from_json(text, "paragon-xps.json").expect("the committed file is right")
 }
 
-/// The rungs of the ladder that are measured, the cheapest first. The last, `flit`, goes cycle by cycle.
-pub const RUNGS: [Rung; 3] = [Rung::Ideal, Rung::LogGp, Rung::Wormhole];
+/// The models of the ladder that are measured, the cheapest first. The last, `flit`, goes cycle by cycle.
+pub const OURS: [NetworkModel; 3] =
+    [NetworkModel::Ideal, NetworkModel::LogGp, NetworkModel::Wormhole];
 
 /// The four neighbours of a node, where the first row follows the last and the first column the last:
 /// each node has as many, and some messages cross the machine.
@@ -33,12 +34,13 @@ pub fn neighbours(rank: usize) -> [usize; 4] {
 
 /// Let every node send a message to each neighbour and wait for theirs, `rounds` times. Returns the
 /// messages taken and the virtual time of the end.
-pub fn exchange(rung: Rung, rounds: u64) -> (u64, Time) {
+pub fn exchange(model: NetworkModel, rounds: u64) -> (u64, Time) {
     let machine = paragon();
     let simulation = Simulation::new();
     let handle = simulation.handle();
     let nodes = COLUMNS * ROWS;
-    let network = machine.network_on(rung).expect("the Paragon's file says enough for every rung");
+    let network =
+        machine.network_on(model).expect("the Paragon's file says enough for every model");
     let multicomputer = Multicomputer::with_network(&handle, &machine, nodes, network)
         .expect("the machine has so many nodes");
     let total = Rc::new(Cell::new(0));

@@ -1,6 +1,6 @@
 //! Channels: what messages take in turns.
 
-use crate::topology::{Link, Place, Topology};
+use super::topology::{Link, Place, Topology};
 
 /// Something that only one message, or one for each virtual channel, uses at a time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

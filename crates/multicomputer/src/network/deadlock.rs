@@ -5,7 +5,7 @@ use std::fmt;
 
 use super::channel::Channel;
 use super::message::Message;
-use crate::topology::Topology;
+use super::topology::Topology;
 
 /// A circle of messages, each of which waits for a channel that the next one holds. None of them
 /// will ever move.

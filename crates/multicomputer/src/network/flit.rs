@@ -1,4 +1,4 @@
-//! Wormhole routing, flit by flit and cycle by cycle: slow and obvious, the oracle of the other rungs.
+//! Wormhole routing, flit by flit and cycle by cycle: slow and obvious, the oracle of the other models.
 //!
 //! A router keeps what comes in by each virtual channel in a buffer of its own. In every cycle
 //! 1. each node's port puts a flit of the message that it sends into its router, if there is room;
@@ -19,15 +19,15 @@ use std::collections::VecDeque;
 
 use desim::{Duration, Time};
 
+use super::agenda::Agenda;
 use super::channel::Channel;
 use super::deadlock::Deadlock;
-use super::delivery::{Arrival, ChannelUse, Network, Stall};
 use super::links::LinkParameters;
 use super::loggp::LogGpParameters;
 use super::message::Message;
+use super::network::{Arrival, ChannelUse, Network, Stall};
 use super::routers::Routers;
-use crate::agenda::Agenda;
-use crate::topology::Topology;
+use super::topology::Topology;
 
 /// A network of routers, with a port for every node.
 pub struct Flit {

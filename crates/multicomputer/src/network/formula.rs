@@ -2,10 +2,10 @@
 
 use desim::{Duration, Time};
 
+use super::agenda::Agenda;
 use super::deadlock::Deadlock;
-use super::delivery::{Arrival, Network, Stall};
 use super::message::Message;
-use crate::agenda::Agenda;
+use super::network::{Arrival, Network, Stall};
 
 /// A closed formula for the course of a message.
 pub trait Formula {
@@ -30,19 +30,19 @@ pub struct Delivery {
 
 /// A network that follows a formula.
 #[derive(Default)]
-pub struct Foretold<F> {
+pub struct ContentionFree<F> {
     formula: F,
     arrivals: Agenda<(Message, Option<Stall>)>,
 }
 
-impl<F: Formula> Foretold<F> {
+impl<F: Formula> ContentionFree<F> {
     /// A network with nothing under way.
-    pub fn new(formula: F) -> Foretold<F> {
-        Foretold { formula, arrivals: Agenda::default() }
+    pub fn new(formula: F) -> ContentionFree<F> {
+        ContentionFree { formula, arrivals: Agenda::default() }
     }
 }
 
-impl<F: Formula> Network for Foretold<F> {
+impl<F: Formula> Network for ContentionFree<F> {
     fn send(&mut self, now: Time, message: Message) -> Time {
         let Delivery { sender_free, arrives, stall } = self.formula.deliver(now, &message);
         self.arrivals.enter(arrives, (message, stall));

@@ -15,10 +15,10 @@
 use desim::{Duration, Time};
 
 use super::channel::Channel;
-use super::delivery::Stall;
 use super::formula::{Delivery, Formula};
 use super::message::Message;
-use crate::topology::Topology;
+use super::network::Stall;
+use super::topology::Topology;
 
 /// Parameters of the model.
 #[derive(Clone, Debug, PartialEq)]

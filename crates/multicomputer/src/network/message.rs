@@ -1,6 +1,6 @@
 //! What is sent over a network.
 
-use crate::topology::Place;
+use super::topology::Place;
 
 /// A message, as the network sees it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,10 +7,10 @@ use desim::{Duration, Time};
 
 use super::channel::{Channel, Channels};
 use super::deadlock::Deadlock;
-use super::delivery::{ChannelUse, Stall};
 use super::links::LinkParameters;
 use super::message::Message;
-use crate::topology::{Shape, Topology};
+use super::network::{ChannelUse, Stall};
+use super::topology::{Shape, Topology};
 
 /// The routers of a network, and the messages in them.
 pub(crate) struct Routers {

@@ -23,15 +23,15 @@ use std::collections::VecDeque;
 
 use desim::{Duration, Time};
 
+use super::agenda::Agenda;
 use super::channel::{Channel, Channels};
 use super::deadlock::Deadlock;
-use super::delivery::{Arrival, ChannelUse, Network, Stall};
+use super::holders::PastHolders;
 use super::links::LinkParameters;
 use super::loggp::LogGpParameters;
 use super::message::Message;
-use super::tenants::Tenants;
-use crate::agenda::Agenda;
-use crate::topology::{Shape, Topology};
+use super::network::{Arrival, ChannelUse, Network, Stall};
+use super::topology::{Shape, Topology};
 
 /// A wormhole network.
 pub struct Wormhole {
@@ -57,7 +57,7 @@ struct Lane {
     holder: Option<u32>,
     /// When the last holder has left.
     free: Time,
-    tenants: Tenants,
+    past_holders: PastHolders,
     queue: VecDeque<u32>,
 }
 
@@ -168,7 +168,7 @@ impl Wormhole {
         let Some(number) = lane.queue.pop_front() else { return };
         self.waiting -= 1;
         let worm = &mut self.worms[number as usize];
-        worm.stalls.extend(lane.tenants.stalls(channel, worm.since));
+        worm.stalls.extend(lane.past_holders.stalls(channel, worm.since));
         self.take(number, now);
     }
 
@@ -180,7 +180,7 @@ impl Wormhole {
         debug_assert!(lane.holder.is_none() && lane.free <= now, "two worms in a lane");
         lane.holder = Some(number);
         if lane.queue.is_empty() {
-            lane.tenants.forget(now);
+            lane.past_holders.forget(now);
         }
         worm.path[step].1 = now;
         worm.taken += 1;
@@ -252,7 +252,7 @@ impl Wormhole {
         let lane = &mut self.lanes[lane_number as usize];
         lane.holder = None;
         lane.free = until + gap;
-        lane.tenants.left(worm.message.id, lane.free);
+        lane.past_holders.left(worm.message.id, lane.free);
         if !lane.queue.is_empty() {
             self.agenda.enter(lane.free, Event::Free(lane_number));
         }

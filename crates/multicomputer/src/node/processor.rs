@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::cache::CacheLevel;
+use super::cache::CacheLevel;
 
 /// A processor that takes a fixed number of cycles for each operation.
 #[derive(Clone, Debug, PartialEq)]

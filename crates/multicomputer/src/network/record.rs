@@ -6,21 +6,24 @@ use std::rc::Rc;
 
 use desim::{Duration, Time};
 
-use crate::network::{Arrival, ChannelUse, Deadlock, LinkParameters, Message, Network};
-use crate::topology::{Place, Topology};
+use super::deadlock::Deadlock;
+use super::links::LinkParameters;
+use super::message::Message;
+use super::network::{Arrival, ChannelUse, Network};
+use super::topology::{Place, Topology};
 
 /// All messages of a run.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Record {
     /// In the order in which they were sent.
-    pub letters: Vec<Letter>,
+    pub messages: Vec<RecordedMessage>,
     /// What reading each cost its receiver.
     pub receive_overhead: Duration,
 }
 
 /// A message of the past.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Letter {
+pub struct RecordedMessage {
     /// When it was sent.
     pub at: Time,
     /// How long that kept its sender busy.
@@ -40,7 +43,7 @@ pub struct Letter {
 impl Record {
     /// How long messages held each other up, in all.
     pub fn blocked(&self) -> Duration {
-        self.letters.iter().map(|letter| letter.blocked).sum()
+        self.messages.iter().map(|message| message.blocked).sum()
     }
 
     /// The part of the time until `end` in which the link that was used most carried bytes; above 1
@@ -48,8 +51,8 @@ impl Record {
     pub fn busiest_link(&self, topology: &Topology, links: &LinkParameters, end: Time) -> f64 {
         let mut busy = vec![0.0; topology.graph().edge_count()];
         let mut bytes: BTreeMap<(Place, Place), u64> = BTreeMap::new();
-        for letter in &self.letters {
-            *bytes.entry((letter.from, letter.to)).or_default() += letter.bytes;
+        for message in &self.messages {
+            *bytes.entry((message.from, message.to)).or_default() += message.bytes;
         }
         for ((from, to), bytes) in bytes {
             for hop in topology.route(from, to) {
@@ -73,7 +76,7 @@ impl Recorder {
     /// The network, and where its messages will be written down.
     pub fn new(network: Box<dyn Network>) -> (Recorder, Rc<RefCell<Record>>) {
         let receive_overhead = network.receive_overhead();
-        let record = Record { letters: Vec::new(), receive_overhead };
+        let record = Record { messages: Vec::new(), receive_overhead };
         let record = Rc::new(RefCell::new(record));
         let under_way = BTreeMap::new();
         (Recorder { network, record: Rc::clone(&record), under_way }, record)
@@ -83,9 +86,9 @@ impl Recorder {
 impl Network for Recorder {
     fn send(&mut self, now: Time, message: Message) -> Time {
         let sender_free = self.network.send(now, message);
-        let letters = &mut self.record.borrow_mut().letters;
-        self.under_way.insert(message.id, letters.len());
-        letters.push(Letter {
+        let messages = &mut self.record.borrow_mut().messages;
+        self.under_way.insert(message.id, messages.len());
+        messages.push(RecordedMessage {
             at: now,
             sender_busy: sender_free - now,
             from: message.from,
@@ -108,12 +111,12 @@ impl Network for Recorder {
     fn advance(&mut self, now: Time, arrived: &mut Vec<Arrival>) -> Result<(), Deadlock> {
         let earlier = arrived.len();
         let advanced = self.network.advance(now, arrived);
-        let letters = &mut self.record.borrow_mut().letters;
+        let messages = &mut self.record.borrow_mut().messages;
         for Arrival { message, at, stalls } in &arrived[earlier..] {
-            let letter = self.under_way.remove(&message.id).and_then(|i| letters.get_mut(i));
-            if let Some(letter) = letter {
-                letter.arrived = Some(*at);
-                letter.blocked = stalls.iter().map(|stall| stall.span).sum();
+            let message = self.under_way.remove(&message.id).and_then(|i| messages.get_mut(i));
+            if let Some(message) = message {
+                message.arrived = Some(*at);
+                message.blocked = stalls.iter().map(|stall| stall.span).sum();
             }
         }
         advanced

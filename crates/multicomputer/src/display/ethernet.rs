@@ -4,8 +4,8 @@ use desim::Duration;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::fault::MachineFault;
-use crate::sourced::{Bandwidth, Bytes, Quantity, Sourced, whole_bytes};
+use crate::file::MachineFault;
+use crate::file::{Bandwidth, Bytes, Quantity, Sourced, whole_bytes};
 
 /// What a medium is that carries one frame at a time. Nobody else sends on it, so that there are no
 /// collisions, and frames shorter than the shortest allowed are sent as they are.

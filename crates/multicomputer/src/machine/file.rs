@@ -7,11 +7,11 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::display::DisplayFile;
-use crate::message_layer::MessageLayerFile;
-use crate::network::Model;
-use crate::repetition::without_repetition;
-use crate::sourced::{Bandwidth, Bytes, Cycles, Frequency, Positive, Quantity, Sourced, Time};
-use crate::start_up::StartUpFile;
+use crate::file::without_repetition;
+use crate::file::{Bandwidth, Bytes, Cycles, Frequency, Positive, Quantity, Sourced, Time};
+use crate::network::ModelChoice;
+use crate::node::MessageLayerFile;
+use crate::node::StartUpFile;
 
 /// A distributed-memory machine: compute nodes and service nodes on a mesh, a torus, a crossbar or a
 /// bus. Every number says how it is known and where it comes from.
@@ -184,7 +184,7 @@ pub(crate) struct NodeMemoryFile {
 #[serde(deny_unknown_fields, expecting = "an object that describes a network")]
 pub(crate) struct NetworkFile {
     /// The model, unless an experiment or an argument asks for another one.
-    pub(crate) model: Model,
+    pub(crate) model: ModelChoice,
     /// The message layer, after LogGP. Only the model "ideal" does without.
     #[serde(default)]
     pub(crate) parameters: Option<LogGpFile>,

@@ -5,13 +5,14 @@ use std::rc::{Rc, Weak};
 
 use desim::{Alarm, Handle};
 
-use crate::account::NodeAccount;
-use crate::buffers::{FullBuffers, Rank};
-use crate::machine::{Machine, MachineError};
+use super::machine::{Machine, MachineError};
+use crate::display::Display;
 use crate::network::{ChannelUse, Deadlock, Network};
+use crate::node::MachineObserver;
 use crate::node::Node;
-use crate::observer::MachineObserver;
-use crate::shared::{NodeState, Shared, Wires};
+use crate::node::{Activity, NodeAccount};
+use crate::node::{FullBuffers, Rank};
+use crate::node::{NodeState, Shared, Wires};
 
 /// A machine on which processes run that send each other messages of type `M`. Clones are the same
 /// machine.
@@ -48,13 +49,15 @@ impl<M: 'static> Multicomputer<M> {
         compute_ranks: usize,
         network: Box<dyn Network>,
     ) -> Result<Multicomputer<M>, MachineError> {
-        let nodes = machine
-            .places(compute_ranks)?
-            .enumerate()
-            .map(|(rank, place)| {
-                NodeState::new(handle, machine, (rank, rank == compute_ranks), place)
-            })
-            .collect();
+        let nodes = machine.places(compute_ranks)?.enumerate().map(|(rank, place)| {
+            let display = machine.display.as_ref().filter(|_| rank == compute_ranks);
+            let room = match display.and_then(Display::room_for_mail) {
+                Some(bytes) => (Some(bytes), Activity::WaitForDisplay),
+                None => (machine.message_layer.buffer_bytes, Activity::WaitForRoom),
+            };
+            NodeState::new(handle, rank, place, machine.node_memory.as_ref(), room)
+        });
+        let nodes = nodes.collect();
         Ok(Multicomputer(Rc::new_cyclic(|shared: &Weak<Shared<M>>| {
             let shared = shared.clone();
             let news = Alarm::new(handle, move || {

@@ -2,17 +2,17 @@
 
 use thiserror::Error;
 
-use crate::cache;
+use super::caches as cache;
+use super::file::{LinksFile, LogGpFile, MachineFile, NetworkFile, NodeMemoryFile, ProcessorFile};
 use crate::display::{Display, DisplayFile};
-use crate::fault::{MachineFault, read};
-use crate::file::{LinksFile, LogGpFile, MachineFile, NetworkFile, NodeMemoryFile, ProcessorFile};
-use crate::memory::NodeMemory;
-use crate::message_layer::MessageLayer;
-use crate::network::{LinkParameters, LogGpParameters, Network, NetworkParameters, Rung};
-use crate::processor::Processor;
-use crate::sourced::{Bytes, Quantity};
-use crate::start_up::{StartUp, StartUpFile};
-use crate::topology::{Place, Shape, Topology};
+use crate::file::{Bytes, Quantity};
+use crate::file::{MachineFault, read};
+use crate::network::{LinkParameters, LogGpParameters, Network, NetworkModel, NetworkParameters};
+use crate::network::{Place, Shape, Topology};
+use crate::node::MessageLayer;
+use crate::node::NodeMemory;
+use crate::node::Processor;
+use crate::node::{StartUp, StartUpFile};
 
 /// Largest network, in places: beyond it a file can only be a slip.
 const MOST_PLACES: u32 = 65_536;
@@ -33,11 +33,11 @@ pub struct Machine {
     pub processor: Processor,
     /// The memory of every node; none where it is not modelled.
     pub node_memory: Option<NodeMemory>,
-    /// What its network needs to know on any rung.
+    /// What its network needs to know on any model.
     pub parameters: NetworkParameters,
-    /// The rung of its network that the file chooses; none if that is left to be found out.
-    pub rung: Option<Rung>,
-    /// What its nodes' message layer does besides LogGP's overheads, on every rung.
+    /// The model of its network that the file chooses; none if that is left to be found out.
+    pub network_model: Option<NetworkModel>,
+    /// What its nodes' message layer does besides LogGP's overheads, on every model.
     pub message_layer: MessageLayer,
     /// The way of what goes from the service node to a display; none where it is not modelled.
     pub display: Option<Display>,
@@ -78,11 +78,11 @@ pub enum MachineError {
         /// The machine.
         title: String,
     },
-    /// The machine's file does not say enough for a rung of its network.
-    #[error("the {title} has no \"network.{missing}\", which its network needs as \"{rung}\"")]
-    Rung {
-        /// The rung asked for.
-        rung: Rung,
+    /// The machine's file does not say enough for a model of its network.
+    #[error("the {title} has no \"network.{missing}\", which its network needs as \"{model}\"")]
+    Network {
+        /// The model asked for.
+        model: NetworkModel,
         /// The field that is missing.
         missing: &'static str,
         /// The machine.
@@ -109,21 +109,23 @@ impl Machine {
         &self.topology
     }
 
-    /// The machine's network with nothing under way, on the rung that its file chooses, or on the
+    /// The machine's network with nothing under way, on the model that its file chooses, or on the
     /// lowest one with costs where the choice is left open.
     pub fn network(&self) -> Box<dyn Network> {
-        let built = self.parameters.build(self.rung.unwrap_or(Rung::LogGp), &self.topology);
-        built.expect("a file that lacks what its rung needs was refused")
+        let built = self
+            .parameters
+            .build(self.network_model.unwrap_or(NetworkModel::LogGp), &self.topology);
+        built.expect("a file that lacks what its model needs was refused")
     }
 
-    /// The machine's network with nothing under way, on a rung of the caller's choice.
+    /// The machine's network with nothing under way, on a model of the caller's choice.
     ///
     /// # Errors
-    /// [`MachineError::Rung`] when the machine's file does not say enough for it.
-    pub fn network_on(&self, rung: Rung) -> Result<Box<dyn Network>, MachineError> {
-        self.parameters.build(rung, &self.topology).ok_or_else(|| {
+    /// [`MachineError::Network`] when the machine's file does not say enough for it.
+    pub fn network_on(&self, model: NetworkModel) -> Result<Box<dyn Network>, MachineError> {
+        self.parameters.build(model, &self.topology).ok_or_else(|| {
             let missing = if self.parameters.software.is_none() { "parameters" } else { "links" };
-            MachineError::Rung { rung, missing, title: self.title.clone() }
+            MachineError::Network { model, missing, title: self.title.clone() }
         })
     }
 
@@ -172,7 +174,7 @@ fn validate(file: MachineFile) -> Result<Machine, MachineFault> {
     let (shape, hop_time) = shape(&file)?;
     let node_memory = file.node_memory.as_ref().map(node_memory).transpose()?;
     let (title, processor) = (file.title, processor(file.processor)?);
-    let (rung, parameters) = network(&file.network, hop_time)?;
+    let (model, parameters) = network(&file.network, hop_time)?;
     let message_layer = file.message_layer.check()?;
     agree(node_memory.as_ref(), &message_layer)?;
     let display = file.display.as_ref().map(DisplayFile::check).transpose()?;
@@ -186,7 +188,7 @@ fn validate(file: MachineFile) -> Result<Machine, MachineFault> {
         processor,
         node_memory,
         parameters,
-        rung,
+        network_model: model,
         message_layer,
         display,
         start_up,
@@ -241,25 +243,25 @@ fn shape(file: &MachineFile) -> Result<(Shape, desim::Duration), MachineFault> {
     }
 }
 
-/// The chosen rung of the network, with all that it needs.
+/// The chosen model of the network, with all that it needs.
 fn network(
     file: &NetworkFile,
     hop_time: desim::Duration,
-) -> Result<(Option<Rung>, NetworkParameters), MachineFault> {
+) -> Result<(Option<NetworkModel>, NetworkParameters), MachineFault> {
     let software = file.parameters.as_ref().map(|parameters| loggp(parameters, hop_time));
     let links = match (&file.links, &software) {
         (Some(file), Some(software)) => Some(links(file, software)?),
         (Some(_), None) => return refuse("network", "missing field `parameters`"),
         (None, _) => None,
     };
-    let rung = file.model.rung();
-    if rung != Some(Rung::Ideal) && software.is_none() {
+    let model = file.model.model();
+    if model != Some(NetworkModel::Ideal) && software.is_none() {
         return refuse("network", "missing field `parameters`");
     }
-    if rung.is_none_or(Rung::needs_links) && links.is_none() {
+    if model.is_none_or(NetworkModel::needs_links) && links.is_none() {
         return refuse("network", "missing field `links`");
     }
-    Ok((rung, NetworkParameters { software, links }))
+    Ok((model, NetworkParameters { software, links }))
 }
 
 fn links(file: &LinksFile, software: &LogGpParameters) -> Result<LinkParameters, MachineFault> {

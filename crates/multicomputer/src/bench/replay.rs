@@ -5,14 +5,14 @@ use std::fmt;
 use desim::{Duration, Time};
 use thiserror::Error;
 
-use crate::agenda::Agenda;
+use super::trace::{Trace, TraceMessage};
+use crate::network::Agenda;
 use crate::network::{Arrival, Deadlock, Message, Network, Stall};
-use crate::topology::{Place, Topology};
-use crate::trace::{Item, Trace};
+use crate::network::{Place, Topology};
 
 /// The course of one message of a trace.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Course {
+pub struct ReplayedMessage {
     /// When its sender's processor took it up.
     pub sent: Time,
     /// When its receiver's processor has read it.
@@ -21,7 +21,7 @@ pub struct Course {
     pub stalls: Vec<Stall>,
 }
 
-impl Course {
+impl ReplayedMessage {
     /// How long other messages held it up on the network, in all.
     pub fn blocked(&self) -> Duration {
         self.stalls.iter().map(|stall| stall.span).sum()
@@ -66,14 +66,15 @@ pub fn replay(
     trace: &Trace,
     network: &mut dyn Network,
     topology: &Topology,
-) -> Result<Vec<Course>, ReplayDeadlock> {
+) -> Result<Vec<ReplayedMessage>, ReplayDeadlock> {
     let mut replay = Replay::new(trace, topology.places());
     let mut arrived = Vec::new();
     loop {
         let next = [replay.due.next_time(), network.next_event()].into_iter().flatten().min();
         let Some(now) = next else { return Ok(replay.courses) };
         network.advance(now, &mut arrived).map_err(|deadlock| {
-            let name = |message: &Message| format!("\"{}\"", trace.items[message.id as usize].name);
+            let name =
+                |message: &Message| format!("\"{}\"", trace.messages[message.id as usize].name);
             ReplayDeadlock { at: now, text: deadlock.describe(name), deadlock }
         })?;
         for arrival in arrived.drain(..) {
@@ -86,8 +87,8 @@ pub fn replay(
 }
 
 struct Replay<'a> {
-    items: &'a [Item],
-    courses: Vec<Course>,
+    messages: &'a [TraceMessage],
+    courses: Vec<ReplayedMessage>,
     /// Messages that can be sent, by when.
     due: Agenda<usize>,
     /// Messages that each one waits for still, and those that wait for it.
@@ -99,19 +100,19 @@ struct Replay<'a> {
 
 impl Replay<'_> {
     fn new(trace: &Trace, places: usize) -> Replay<'_> {
-        let items = &trace.items;
+        let messages = &trace.messages;
         let mut replay = Replay {
-            items,
-            courses: vec![Course::default(); items.len()],
+            messages,
+            courses: vec![ReplayedMessage::default(); messages.len()],
             due: Agenda::default(),
-            waits_for: items.iter().map(|item| item.after.len()).collect(),
-            followers: vec![Vec::new(); items.len()],
+            waits_for: messages.iter().map(|message| message.after.len()).collect(),
+            followers: vec![Vec::new(); messages.len()],
             free: vec![Time::ZERO; places],
         };
-        for (index, item) in items.iter().enumerate() {
-            item.after.iter().for_each(|&earlier| replay.followers[earlier].push(index));
-            if item.after.is_empty() {
-                replay.due.enter(item.at, index);
+        for (index, message) in messages.iter().enumerate() {
+            message.after.iter().for_each(|&earlier| replay.followers[earlier].push(index));
+            if message.after.is_empty() {
+                replay.due.enter(message.at, index);
             }
         }
         replay
@@ -119,7 +120,7 @@ impl Replay<'_> {
 
     /// A message's time has come: it is sent, or waits until its node's processor is free.
     fn send(&mut self, index: usize, now: Time, network: &mut dyn Network) {
-        let &Item { from, to, bytes, .. } = &self.items[index];
+        let &TraceMessage { from, to, bytes, .. } = &self.messages[index];
         if self.free[from] > now {
             return self.due.enter(self.free[from], index);
         }
@@ -139,7 +140,7 @@ impl Replay<'_> {
         for follower in std::mem::take(&mut self.followers[index]) {
             self.waits_for[follower] -= 1;
             if self.waits_for[follower] == 0 {
-                self.due.enter(self.items[follower].at.max(*free), follower);
+                self.due.enter(self.messages[follower].at.max(*free), follower);
             }
         }
     }

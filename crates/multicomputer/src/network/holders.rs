@@ -5,13 +5,13 @@ use std::collections::VecDeque;
 use desim::Time;
 
 use super::channel::Channel;
-use super::delivery::Stall;
+use super::network::Stall;
 
-/// The tenants of a channel, the earliest first.
+/// The past_holders of a channel, the earliest first.
 #[derive(Default)]
-pub(crate) struct Tenants(VecDeque<(u64, Time)>);
+pub(crate) struct PastHolders(VecDeque<(u64, Time)>);
 
-impl Tenants {
+impl PastHolders {
     /// A message has left the channel, or will at `until`.
     pub(crate) fn left(&mut self, message: u64, until: Time) {
         self.0.push_back((message, until));

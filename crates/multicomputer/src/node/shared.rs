@@ -8,15 +8,13 @@ use std::rc::Rc;
 
 use desim::{Alarm, Handle, Signal, Time};
 
-use crate::account::{Activity, Ledger, NodeAccount};
-use crate::buffers::{Buffers, FullBuffers, Rank};
-use crate::display::Display;
-use crate::machine::Machine;
-use crate::memory::Residence;
-use crate::message_layer::MessageLayer;
+use super::account::{Activity, Ledger, NodeAccount};
+use super::buffers::{Buffers, FullBuffers, Rank};
+use super::memory::{NodeMemory, Residence};
+use super::message_layer::MessageLayer;
+use super::observer::{MachineObserver, Sent};
+use crate::network::Place;
 use crate::network::{Arrival, Deadlock, Message, Network};
-use crate::observer::{MachineObserver, Sent};
-use crate::topology::Place;
 
 /// What all nodes of a multicomputer share.
 pub(crate) struct Shared<M> {
@@ -135,28 +133,25 @@ enum Job<M> {
 }
 
 impl<M> NodeState<M> {
+    /// The state of a node at the start. Its buffers have `room` bytes, or are without end; a
+    /// processor that waits for room in them does `waiting`.
     pub(crate) fn new(
         handle: &Handle,
-        machine: &Machine,
-        (rank, is_service): (Rank, bool),
+        rank: Rank,
         place: Place,
+        memory: Option<&NodeMemory>,
+        (room, waiting): (Option<u64>, Activity),
     ) -> NodeState<M> {
-        let residence = machine.node_memory.as_ref().map(Residence::new);
-        let display = machine.display.as_ref().filter(|_| is_service);
-        let (bytes, waiting) = match display.and_then(Display::room_for_mail) {
-            Some(bytes) => (Some(bytes), Activity::WaitForDisplay),
-            None => (machine.message_layer.buffer_bytes, Activity::WaitForRoom),
-        };
         NodeState {
             place,
             ledger: RefCell::default(),
             mailbox: RefCell::default(),
             unread_bytes: Cell::default(),
-            residence: residence.map(RefCell::new),
+            residence: memory.map(|memory| RefCell::new(Residence::new(memory))),
             mail: Signal::new(handle, format!("mail at node {rank}")),
             posted: Cell::default(),
             unposted: Cell::default(),
-            buffers: bytes.map(|bytes| RefCell::new(Buffers::new(bytes))),
+            buffers: room.map(|bytes| RefCell::new(Buffers::new(bytes))),
             waiting,
             room: Signal::new(handle, format!("room in the buffers of node {rank}")),
             waits_for: Cell::default(),

@@ -4,12 +4,12 @@
 
 use desim::{Simulation, Stalled, Time};
 
-use crate::buffers::Rank;
+use crate::machine::Multicomputer;
 use crate::machine::{Machine, MachineError};
-use crate::multicomputer::Multicomputer;
 use crate::network::Network;
+use crate::network::Shape;
 use crate::node::Node;
-use crate::topology::Shape;
+use crate::node::Rank;
 
 /// A kernel that could not be run to its end.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

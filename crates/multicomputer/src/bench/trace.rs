@@ -9,8 +9,8 @@ use petgraph::graph::{DiGraph, NodeIndex};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::fault::{MachineFault, read};
-use crate::sourced::{Quantity, Time as Seconds};
+use crate::file::{MachineFault, read};
+use crate::file::{Quantity, Time as Seconds};
 
 /// Longest message, bytes: beyond it a file can only be a slip.
 const MOST_BYTES: u64 = 1_000_000_000;
@@ -21,12 +21,12 @@ const LATEST: f64 = 86_400.0;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Trace {
     /// In the order of the file, which decides between those that are sent at one time.
-    pub items: Vec<Item>,
+    pub messages: Vec<TraceMessage>,
 }
 
 /// A message to send.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Item {
+pub struct TraceMessage {
     /// What the user calls it.
     pub name: String,
     /// When it is sent, unless `after` or a busy processor delay it.
@@ -109,11 +109,11 @@ fn check(items: &[ItemFile], nodes: usize) -> Result<Trace, MachineFault> {
     }
     let items = items.iter().enumerate();
     let items = items.map(|(index, item)| checked(index, item, nodes, &numbers));
-    let trace = Trace { items: items.collect::<Result<_, _>>()? };
+    let trace = Trace { messages: items.collect::<Result<_, _>>()? };
     match trace.circle() {
         None => Ok(trace),
         Some(circle) => {
-            let names = circle.iter().map(|&i| format!("\"{}\"", trace.items[i].name));
+            let names = circle.iter().map(|&i| format!("\"{}\"", trace.messages[i].name));
             let names = names.collect::<Vec<_>>().join(" after ");
             let message = format!("found a circle, {names}; expected messages that can be sent");
             Err(MachineFault::at(format!("[{}].after", circle[0]), message))
@@ -127,7 +127,7 @@ fn checked(
     item: &ItemFile,
     nodes: usize,
     numbers: &BTreeMap<String, usize>,
-) -> Result<Item, MachineFault> {
+) -> Result<TraceMessage, MachineFault> {
     let refuse = |field: &str, found: &dyn fmt::Display, expected: String| {
         let message = format!("found {found}; expected {expected}");
         Err(MachineFault::at(format!("[{index}].{field}"), message))
@@ -157,14 +157,14 @@ fn checked(
     after.dedup();
     let at = Time::ZERO + item.at.duration();
     let (from, to) = (item.from as usize, item.to as usize);
-    Ok(Item { name: item.id.to_string(), at, from, to, bytes: item.bytes, after })
+    Ok(TraceMessage { name: item.id.to_string(), at, from, to, bytes: item.bytes, after })
 }
 
 impl Trace {
     /// Items each of which comes after the next one, and the last one after the first, which stands
     /// there again; none if all can be sent.
     fn circle(&self) -> Option<Vec<usize>> {
-        let edges = self.items.iter().enumerate();
+        let edges = self.messages.iter().enumerate();
         let edges =
             edges.flat_map(|(i, item)| item.after.iter().map(move |&j| (i as u32, j as u32)));
         let graph: DiGraph<(), ()> = DiGraph::from_edges(edges);

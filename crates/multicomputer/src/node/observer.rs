@@ -2,8 +2,8 @@
 
 use desim::Time;
 
-use crate::account::Activity;
-use crate::buffers::Rank;
+use super::account::Activity;
+use super::buffers::Rank;
 use crate::network::Stall;
 
 /// Told what happens on a [`crate::Multicomputer`], in the order of virtual time. It changes nothing:

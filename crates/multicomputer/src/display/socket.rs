@@ -6,9 +6,9 @@ use std::rc::Rc;
 
 use desim::{Duration, Signal, Time};
 
-use crate::account::Activity;
-use crate::buffers::Buffers;
-use crate::display::{Display, WhenFull};
+use super::display::{Display, WhenFull};
+use crate::node::Activity;
+use crate::node::Buffers;
 use crate::node::Node;
 
 /// What became of the updates for a display.

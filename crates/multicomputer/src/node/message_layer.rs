@@ -15,8 +15,8 @@ use desim::Duration;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::fault::MachineFault;
-use crate::sourced::{Bandwidth, Bytes, Quantity, Sourced, Time, whole_bytes};
+use crate::file::MachineFault;
+use crate::file::{Bandwidth, Bytes, Quantity, Sourced, Time, whole_bytes};
 
 /// What a node's message layer does besides LogGP's overheads; the default is nothing.
 #[derive(Clone, Debug, Default, PartialEq)]

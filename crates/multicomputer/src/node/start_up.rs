@@ -8,9 +8,9 @@ use desim::{Duration, Time};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::fault::MachineFault;
-use crate::repetition::without_repetition;
-use crate::sourced::{self, Bandwidth, Bytes, Cycles, Quantity, Sourced, whole_bytes};
+use crate::file::MachineFault;
+use crate::file::without_repetition;
+use crate::file::{self, Bandwidth, Bytes, Cycles, Quantity, Sourced, whole_bytes};
 
 /// A disk's sector, bytes: shorter requests can only be a slip.
 const SECTOR: u64 = 512;
@@ -82,7 +82,7 @@ pub(crate) struct StartUpFile {
     /// Bytes a second of the disks of one I/O node.
     bandwidth: Sourced<Quantity<Bandwidth>>,
     /// Time of a request until its first byte comes.
-    access_time: Sourced<Quantity<sourced::Time>>,
+    access_time: Sourced<Quantity<file::Time>>,
     /// What a node asks for at a time, and what lies on one I/O node before the next one follows.
     request: Sourced<Quantity<Bytes>>,
     /// Cycles of each step in which a node makes itself ready.

@@ -9,8 +9,8 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Deserializer, Error, Unexpected, Visitor};
 use serde::{Deserialize, Serialize};
 
-use crate::fault::MachineFault;
-use crate::quantity::{self, Dimension};
+use super::fault::MachineFault;
+use super::quantity::{self, Dimension};
 
 /// How a number is known.
 #[derive(Deserialize, Serialize, JsonSchema)]

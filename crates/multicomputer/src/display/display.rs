@@ -5,9 +5,9 @@ use desim::Duration;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::ethernet::{Ethernet, EthernetFile};
-use crate::fault::MachineFault;
-use crate::sourced::{Bandwidth, Bytes, Quantity, Sourced, Time, whole_bytes};
+use super::ethernet::{Ethernet, EthernetFile};
+use crate::file::MachineFault;
+use crate::file::{Bandwidth, Bytes, Quantity, Sourced, Time, whole_bytes};
 
 /// The way of an update from the service node to a display:
 ///

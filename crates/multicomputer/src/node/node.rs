@@ -5,10 +5,10 @@ use std::rc::Rc;
 
 use desim::{Duration, Handle, Signal, Time};
 
-use crate::account::Activity;
-use crate::buffers::{FullBuffers, Rank};
-use crate::memory::{Residence, Segment};
-use crate::shared::{Letter, NodeState, Shared, Waiting};
+use super::account::Activity;
+use super::buffers::{FullBuffers, Rank};
+use super::memory::{Residence, Segment};
+use super::shared::{Letter, NodeState, Shared, Waiting};
 
 /// A node of a running [`crate::Multicomputer`]; cheap to clone and to move into its process.
 pub struct Node<M> {

@@ -4,10 +4,10 @@ use desim::{Duration, Time};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
+use super::replay::ReplayedMessage;
+use super::trace::{Trace, TraceMessage};
 use crate::network::LinkParameters;
-use crate::replay::Course;
-use crate::topology::{Place, Topology};
-use crate::trace::{Item, Trace};
+use crate::network::{Place, Topology};
 
 /// Who sends to whom.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -120,7 +120,7 @@ pub struct Load {
 impl Load {
     /// The traffic among the first `nodes` nodes, in order of time.
     pub fn trace(&self, topology: &Topology, nodes: usize) -> Trace {
-        let mut items = Vec::new();
+        let mut messages = Vec::new();
         for from in 0..nodes {
             let mut random = ChaCha8Rng::seed_from_u64(self.seed);
             random.set_stream(from as u64);
@@ -130,14 +130,17 @@ impl Load {
                 let to = partners[below(partners.len(), random.next_u64())];
                 if to != from {
                     let (name, bytes) = (String::new(), self.bytes);
-                    items.push(Item { name, at, from, to, bytes, after: Vec::new() });
+                    messages.push(TraceMessage { name, at, from, to, bytes, after: Vec::new() });
                 }
                 at += self.gap(&mut random);
             }
         }
-        items.sort_by_key(|item| item.at);
-        items.iter_mut().enumerate().for_each(|(number, item)| item.name = number.to_string());
-        Trace { items }
+        messages.sort_by_key(|message| message.at);
+        messages
+            .iter_mut()
+            .enumerate()
+            .for_each(|(number, message)| message.name = number.to_string());
+        Trace { messages }
     }
 
     /// A time until the next message, after Poisson.
@@ -167,15 +170,15 @@ pub struct Measured {
 
 impl Measured {
     /// Measures a load by the courses of its messages.
-    pub fn of(load: &Load, trace: &Trace, courses: &[Course]) -> Measured {
+    pub fn of(load: &Load, trace: &Trace, courses: &[ReplayedMessage]) -> Measured {
         let from = Time(load.until.0 / 4);
-        let both = || trace.items.iter().zip(courses);
+        let both = || trace.messages.iter().zip(courses);
         let latencies: Vec<f64> = both()
-            .filter(|(item, _)| item.at >= from)
-            .map(|(item, course)| (course.arrived - item.at).as_seconds_f64())
+            .filter(|(message, _)| message.at >= from)
+            .map(|(message, course)| (course.arrived - message.at).as_seconds_f64())
             .collect();
         let arrived = both().filter(|(_, course)| (from..load.until).contains(&course.arrived));
-        let bytes: u64 = arrived.map(|(item, _)| item.bytes).sum();
+        let bytes: u64 = arrived.map(|(message, _)| message.bytes).sum();
         Measured {
             messages: latencies.len(),
             latency: latencies.iter().sum::<f64>() / latencies.len().max(1) as f64,

@@ -1,0 +1,45 @@
+//! Checks the caches of a machine file.
+
+use super::file::{CachesFile, TranslationsFile};
+use crate::file::MachineFault;
+use crate::node::CacheLevel;
+
+/// Largest line and cache, bytes: beyond them a file can only be a slip.
+const LONGEST_LINE: u64 = 65_536;
+const LARGEST_CACHE: u64 = 1 << 30;
+
+/// The levels of a machine file: a line and a number of sets are powers of two, and no line is shorter
+/// than those of the level before.
+pub(crate) fn levels(files: &CachesFile) -> Result<Vec<CacheLevel>, MachineFault> {
+    let mut levels: Vec<CacheLevel> = Vec::new();
+    let secondary = files.secondary.as_ref().map(|file| ("secondary", file));
+    for (cache, file) in [("primary", &files.primary)].into_iter().chain(secondary) {
+        let bytes = |name: &str, found: f64, unit: u64, most: u64| {
+            let units = found / unit as f64;
+            if units.fract() == 0.0 && (units as u64).is_power_of_two() && found <= most as f64 {
+                return Ok(found as u64);
+            }
+            let place = format!("processor.caches.{cache}.{name}.value");
+            let expected = format!("expected {unit} B times a power of two, at most {most} B");
+            Err(MachineFault::at(&place, format!("found {found} B; {expected}")))
+        };
+        let ways = u64::from(file.ways.value.get());
+        let shortest = levels.last().map_or(1, |level| level.line);
+        let line = bytes("line", file.line.value.si, shortest, LONGEST_LINE)?;
+        let size = bytes("size", file.size.value.si, line * ways, LARGEST_CACHE)?;
+        levels.push(CacheLevel { size, line, ways, miss_time: file.miss_time.value.si });
+    }
+    Ok(levels)
+}
+
+/// Translations as a cache of pages of which any may take the place of any other.
+pub(crate) fn translations(file: &TranslationsFile) -> Result<CacheLevel, MachineFault> {
+    let (page, ways) = (file.page.value.si, u64::from(file.entries.value.get()));
+    if page > LONGEST_LINE as f64 || page.fract() != 0.0 || !(page as u64).is_power_of_two() {
+        let expected = format!("expected a power of two, at most {LONGEST_LINE} B");
+        let message = format!("found {page} B; {expected}");
+        return Err(MachineFault::at("processor.caches.translations.page.value", message));
+    }
+    let line = page as u64;
+    Ok(CacheLevel { size: line * ways, line, ways, miss_time: file.miss_time.value.si })
+}
