@@ -1,122 +1,65 @@
 //! Experiment files, their sweeps, results, tables, plots and reports.
 //!
-//! A file is read, expanded and validated once, at the door ([`Plan::read`]); the plan is carried
-//! out, run by run, each saved as it ends ([`carry_out`]); its results are written whole
-//! ([`Results`]). Knows nothing of how a kernel or a link works: all of that is behind `engine`.
+//! An experiment file is read, expanded and validated once ([`Plan::read`]); the plan's runs are carried
+//! out, each saved as it ends ([`carry_out`]); the results are written whole ([`Results`]).
+//!
+//! The folders, each of which imports only those above it:
+//!
+//! - [`files`]: reading of files: names, JSON, units, digests, and messages about what is wrong.
+//! - [`host`]: the computer that this program runs on: clock, memory, locks, the program file.
+//! - [`experiment`]: an experiment file: its fields, and the product of its lists.
+//! - [`open`]: scenes and machines: from their files to meshed and cut problems.
+//! - [`engine`]: one run. Only this folder calls the simulator.
+//! - [`accuracy`]: errors of runs, and the search for settings that reach an error.
+//! - [`table`]: the table of results: its columns, and what is read from it.
+//! - [`planning`]: from an experiment file to all its runs, every check included.
+//! - [`run`]: carries out the runs of a plan on worker threads.
+//! - [`results`]: from finished runs to tables, plots and reports.
+//! - [`inspect`]: single files, scenes and runs, without a folder of results.
 
 mod accuracy;
-mod answer;
-mod causes;
-mod chart;
-mod cheapest;
-mod check;
-mod columns;
-mod comparison;
-mod console;
-mod cut;
-mod digest;
-mod display;
-mod document;
 mod engine;
-mod error_causes;
-mod errors;
 mod experiment;
-mod family;
-mod fault;
-mod feed;
-mod figures;
-mod file;
-mod find;
-mod held;
-mod hemisphere;
-mod host_clock;
-mod host_memory;
-mod host_times;
-mod interfaces;
-mod json;
-mod knobs;
-mod live_page;
-mod machine_file;
-mod measure;
-mod medium;
-mod message_layer;
-mod network;
-mod networks;
-mod node_memory;
-mod open_machine;
-mod open_scene;
-mod pareto;
-mod pilot;
-mod place;
-mod plan;
-mod planner;
-mod plots;
-mod power_law;
-mod preparing;
-mod problem;
-mod program;
-mod pulse;
-mod quantity;
-mod queue;
-mod ray_bench;
-mod reels;
-mod refine;
-mod report;
+mod files;
+mod host;
+mod inspect;
+mod open;
+mod planning;
 mod results;
-mod runner;
-mod saved;
-mod scale;
-mod scene;
-mod scene_file;
-mod schema;
-mod series;
-mod settings;
-mod shot_files;
-mod source_split;
-mod stage;
-mod start_up;
-mod suits;
-mod summary;
-mod sweep;
+mod run;
 mod table;
-mod traces;
-mod trials;
-mod tuned;
-mod tuner;
-mod viewing;
-mod wall_mesh;
 
-pub use check::check;
-pub use document::Document;
-pub use engine::{Light, On};
-pub use experiment::{Plot, experiment_schema};
-pub use fault::Fault;
-pub use feed::{Feed, News};
-pub use file::{read_text, write as write_file};
-pub use host_clock::HostClock;
-pub use host_memory::half_of_free_memory;
-pub use live_page::live_page;
-pub use networks::text as networks_text;
-pub use open_machine::OpenMachine;
-pub use open_scene::OpenScene;
-pub use place::Place;
-pub use plan::Plan;
-pub use preparing::Preparing;
-pub use pulse::Pulse;
-pub use ray_bench::RayBench;
-pub use results::{Results, write_host_times};
-pub use runner::{Endings, Event, Options, Watch, carry_out};
-pub use scene_file::scene_schema;
-pub use shot_files::ShotFiles;
-pub use stage::{Stage, StagedRun, Which};
-pub use table::Table;
-pub use traces::Traces;
-pub use trials::Trials;
+pub use engine::simulator::{Light, On};
+pub use experiment::fields::{Plot, experiment_schema};
+pub use files::document::Document;
+pub use files::fault::Fault;
+pub use files::file::{read_text, write as write_file};
+pub use files::place::Place;
+pub use host::host_clock::HostClock;
+pub use host::host_memory::half_of_free_memory;
+pub use inspect::check::check;
+pub use inspect::stage::{Stage, StagedRun, Which};
+pub use inspect::trials::Trials;
+pub use open::open_machine::OpenMachine;
+pub use open::open_scene::OpenScene;
+pub use open::ray_bench::RayBench;
+pub use open::scene_file::scene_schema;
+pub use planning::plan::Plan;
+pub use planning::preparing::Preparing;
+pub use results::folder::{Results, write_host_times};
+pub use results::live_page::live_page;
+pub use results::networks::text as networks_text;
+pub use run::feed::{Feed, News};
+pub use run::pulse::Pulse;
+pub use run::runner::{Endings, Event, Options, Watch, carry_out};
+pub use run::shot_files::ShotFiles;
+pub use run::traces::Traces;
+pub use run::viewing::Viewing;
+pub use table::runs_csv::Table;
 pub use viewer::LivePage;
-pub use viewing::Viewing;
 
 /// Draws a plot of a table as the text of an SVG file; a column `paper_<y>` or
 /// `published_<y>` holds published points.
 pub fn svg(table: &Table, plot: &Plot) -> String {
-    chart::svg(table, &[], plot)
+    results::chart::svg(table, &[], plot)
 }

@@ -1,0 +1,102 @@
+//! Answers that runs are held against: stored references, and dense solutions of the runs' own meshes.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::sync::{Arc, Mutex, OnceLock};
+
+use radiosity::{LocalEnvironment, PatchSize, Rgb, Space};
+use reference::{Dense, Patches, Reference};
+use virtwall::Problem;
+
+use crate::files::digest::FileDigest;
+use crate::files::fault::Fault;
+use crate::files::find::Found;
+use crate::host::held::held;
+
+/// What of the experiment's field means the dense solution of a run's own mesh.
+pub const DENSE: &str = "dense";
+
+/// What of the experiment's field means the stored reference that is named like the scene.
+pub const STORED: &str = "stored";
+
+/// Beyond so many patches a dense solution takes too long and too much memory.
+pub const MOST_DENSE: usize = 4_000;
+
+/// What the errors of a patch's form factors may add up to in a dense solution.
+const TOLERANCE: f64 = 1e-4;
+
+/// An answer on patches of its own.
+pub struct Answer {
+    /// Its patches.
+    pub patches: Patches,
+    /// Their radiosities, W/m².
+    pub radiosity: Vec<Rgb>,
+    /// Its own error, relative to what is reflected.
+    pub error: f64,
+}
+
+/// A stored reference and the file that it was read from.
+pub struct Stored {
+    /// What it says.
+    pub answer: Arc<Answer>,
+    /// Its file.
+    pub digest: FileDigest,
+}
+
+impl Stored {
+    /// Reads a stored reference of a scene.
+    ///
+    /// # Errors
+    /// If it is no reference, or one of another scene.
+    pub fn read(found: &Found, scene: &radiosity::Scene) -> Result<Stored, Fault> {
+        let digest = FileDigest::of(&found.path, &found.label)?;
+        let refuse = |message: String| Err(Fault::of_file(found.path.display(), message));
+        let text = fs::read_to_string(&found.path)
+            .map_err(|error| Fault::of_file(found.path.display(), error.to_string()))?;
+        let stored: Reference = match serde_json::from_str(&text) {
+            Ok(stored) => stored,
+            Err(error) => return refuse(format!("{error}; expected what `reference` has stored")),
+        };
+        let subject = &stored.subject;
+        let [reflector, emitter] = [subject.patch_size_m, subject.emitter_patch_size_m];
+        let sound = [reflector, emitter].iter().all(|size| *size > 0.0 && size.is_finite());
+        let cells: u64 = subject.cells.iter().map(|&n| u64::from(n)).product();
+        if !sound || !(1..=1 << 28).contains(&cells) {
+            return refuse("no sizes of patches and cells; expected them".to_owned());
+        }
+        let space = Space::new(scene.clone(), subject.cells);
+        let size = PatchSize { reflector, emitter };
+        let environment = LocalEnvironment::new(&space, space.grid.whole(), size);
+        let patches = Patches::new(&space, &environment);
+        if patches.digest() != subject.patches_sha256 || patches.count() != stored.radiosity.len() {
+            let message = "is of a scene with other patches than this one's in its mesh; expected \
+                           one of the same polygons and materials";
+            return refuse(message.to_owned());
+        }
+        let radiosity = stored.radiosity.iter().map(|&colours| Rgb::from(colours)).collect();
+        let answer = Arc::new(Answer { patches, radiosity, error: stored.relative_l2_error });
+        Ok(Stored { answer, digest })
+    }
+}
+
+/// Dense solutions, each found once.
+#[derive(Default)]
+pub struct DenseAnswers(Mutex<BTreeMap<String, Arc<OnceLock<Arc<Answer>>>>>);
+
+impl DenseAnswers {
+    /// The dense solution on the patches of a problem.
+    pub fn of(&self, problem: &Problem) -> Arc<Answer> {
+        let patches = Patches::of_all(&problem.space, &problem.environments);
+        let place = Arc::clone(held(&self.0).entry(patches.digest()).or_default());
+        Arc::clone(place.get_or_init(|| Arc::new(dense(problem, patches))))
+    }
+}
+
+fn dense(problem: &Problem, patches: Patches) -> Answer {
+    let scene = &problem.space.scene;
+    let dense = Dense::new(scene, patches, TOLERANCE, parallel::host_threads(), || ());
+    let solution = dense.solve();
+    let patches = dense.patches().clone();
+    let error = solution.relative_l2_error(&patches);
+    Answer { radiosity: solution.radiosity, patches, error }
+}

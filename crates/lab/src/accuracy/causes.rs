@@ -1,0 +1,92 @@
+//! Where the error of a run comes from: each cause is what changes when it is switched off, the ones
+//! before it being off already.
+
+use std::sync::Arc;
+
+use multicomputer::{Machine, ModelChoice};
+use radiosity::Rgb;
+use radiosity::glam::DVec3;
+use reference::Centres;
+use virtwall::{KeptShots, Problem};
+
+use crate::accuracy::answer::Answer;
+use crate::accuracy::errors::{Radiosity, Yardstick};
+use crate::engine::error_causes::Causes;
+use crate::engine::knobs;
+use crate::engine::simulator::{self, On};
+use crate::experiment::fields::{Experiment, Stop};
+use crate::files::quantity::Fraction;
+
+/// A local patch is shot down to this share of what the brightest begins with: what is then left is
+/// no cause any more.
+const ALL_SHOT: &str = "0.0001 %";
+
+/// A run whose error is to be explained.
+pub struct Explained<'a> {
+    /// What was run.
+    pub point: &'a Experiment,
+    /// Scene, mesh and cut.
+    pub problem: &'a Arc<Problem>,
+    /// The machine; its times do not matter here.
+    pub machine: &'a Machine,
+    /// Shots of the problem.
+    pub kept: &'a Arc<KeptShots>,
+}
+
+impl Explained<'_> {
+    /// Takes the run's error apart: against `yardstick`, by way of the dense solution of its own mesh.
+    ///
+    /// # Errors
+    /// Why a run of those that this takes did not end.
+    pub fn causes(
+        &self,
+        radiosity: &Radiosity,
+        yardstick: &Yardstick,
+        dense: &Answer,
+    ) -> Result<Causes, String> {
+        let all_shot = Experiment {
+            stop: Stop {
+                patch_threshold: Fraction::parse(ALL_SHOT)?,
+                energy_threshold: Fraction::parse("0 %")?,
+                ..self.point.stop.clone()
+            },
+            overshoot: 1.0,
+            ambient: false,
+            ..self.point.clone()
+        };
+        // From the run itself to the answer, one cause less at each step.
+        let steps = [
+            radiosity.concat(),
+            self.run(&all_shot)?,
+            self.centres(dense).solve(),
+            dense.radiosity.clone(),
+        ];
+        let mut means: Vec<Vec<Rgb>> = steps.iter().map(|step| yardstick.means(step)).collect();
+        means.push(yardstick.radiosity().to_vec());
+        let part = |step: usize| yardstick.between(&means[step], &means[step + 1]).relative_l2;
+        Ok(Causes { stopping: part(0), directions: part(1), sampling: part(2), mesh: part(3) })
+    }
+
+    /// Radiosities of another run of the problem, one environment after the other.
+    fn run(&self, point: &Experiment) -> Result<Vec<Rgb>, String> {
+        let point = Experiment { network: Some(ModelChoice::Ideal), ..point.clone() };
+        let run = simulator::run(self.problem, &point, self.kept, Arc::new(|| ()));
+        let (_, radiosity) =
+            simulator::carry_out(&run, &point, On::Simulation, self.machine, 0, None)?;
+        Ok(radiosity.concat())
+    }
+
+    /// What shooting from the run's own points finds with a ray in every direction.
+    fn centres(&self, dense: &Answer) -> Centres {
+        let space = &self.problem.space;
+        let split = knobs::shooting(self.point).split;
+        let points = self.problem.environments.iter().flat_map(|environment| {
+            (0..environment.patches.len() as u32).map(move |patch| {
+                let parts = split.parts(space, environment, patch);
+                parts.iter().map(|part| (part.centre, part.share)).collect::<Vec<(DVec3, f64)>>()
+            })
+        });
+        let points: Vec<_> = points.collect();
+        Centres::new(&space.scene, dense.patches.clone(), &points, parallel::host_threads())
+    }
+}

@@ -1,0 +1,238 @@
+//! All settings of the knobs on one mesh: what each costs and errs, told from a few pilot runs.
+//!
+//! Runs that differ in one knob alone differ by the error of that knob, and by the noise of their directions,
+//! which is known and taken off; what witnesses find beyond is the mesh's. Laws that were measured elsewhere
+//! carry each cause to settings that were not run: directions fall with the power 0.79 of their number, centre
+//! sampling with the square of the parts' size, meshes with the patches' size.
+
+use crate::accuracy::pilot::{Knobs, Pilot, Pilots, threshold};
+use crate::accuracy::tuned::Causes;
+use crate::engine::simulator::Stopped;
+
+/// By which power of the rays the error of the default directions falls.
+const DIRECTIONS_POWER: f64 = 0.79;
+
+/// Rays a source of the first pilots.
+const FIRST_PIXELS: u32 = 1_024;
+
+/// The most rays a source of any.
+const MOST_PIXELS: u32 = 1 << 17;
+
+/// Steps of the threshold of the first pilot, and at most.
+const FIRST_STEPS: usize = 6;
+const MOST_STEPS: usize = 48;
+
+/// Over-shooting that is tried.
+const OVERSHOOTS: [f64; 2] = [1.0, 1.3];
+
+/// Sources a patch, along each direction, that are tried.
+const SPLITS: [u32; 6] = [1, 2, 3, 4, 6, 8];
+
+/// Settings on one mesh.
+#[derive(Clone)]
+pub struct Family {
+    /// Patches are so many times as long as the experiment, or the scene, asks for.
+    pub mesh: f64,
+    curves: Vec<Curve>,
+    /// The error of the directions with so many pixels.
+    directions: (f64, u32),
+    /// The error of shooting from centres of whole patches.
+    centre: f64,
+    /// The error of patches of one radiosity each.
+    of_mesh: f64,
+    /// A run's time over that with the first number of pixels: this, and so much a pixel.
+    fixed: f64,
+    a_pixel: f64,
+    /// By how much causes but stopping, and times, have come out larger than told here.
+    error_correction: f64,
+    time_correction: f64,
+}
+
+/// What stopping at each step of the threshold costs and spares, with the first number of pixels.
+#[derive(Clone)]
+struct Curve {
+    overshoot: f64,
+    ambient: bool,
+    /// Errors and seconds.
+    steps: Vec<(f64, f64)>,
+}
+
+/// A setting with what it is expected to do.
+#[derive(Clone, Copy)]
+pub struct Proposal {
+    /// The setting.
+    pub knobs: Knobs,
+    /// The step of its threshold.
+    pub step: usize,
+    /// Its errors.
+    pub causes: Causes,
+    /// Its virtual seconds on one processor.
+    pub time_s: f64,
+}
+
+impl Family {
+    /// Finds out by pilot runs, as far as a target makes worth while.
+    ///
+    /// # Errors
+    /// Why a pilot did not end.
+    pub fn explore(pilots: &Pilots, mesh: f64, target: f64) -> Result<Family, String> {
+        let (split, threshold) = (1, threshold(0));
+        let start =
+            Knobs { mesh, pixels: FIRST_PIXELS, split, threshold, overshoot: 1.0, ambient: false };
+        let (one, tail) = converged(pilots, &start, target)?;
+        let steps = one.stops.len() - 1;
+        let limit = pilots.solution(&one.stops[steps], true);
+        let mut curves = Vec::new();
+        for overshoot in OVERSHOOTS {
+            let pilot = pilots.run(&Knobs { overshoot, ..start }, steps)?;
+            for ambient in [false, true] {
+                let step = |stop: &Stopped| {
+                    let error = pilots.difference(&pilots.solution(stop, ambient), &limit);
+                    (error + tail, stop.time_s)
+                };
+                let steps = pilot.stops.iter().take(steps + 1).map(step).collect();
+                curves.push(Curve { overshoot, ambient, steps });
+            }
+        }
+        // Other causes are looked at where stopping is not what matters.
+        let plain = &curves[..2];
+        let least =
+            |step: usize| if plain[0].steps[step].0 < plain[1].steps[step].0 { 0 } else { 1 };
+        let enough = |&step: &usize| plain[least(step)].steps[step].0 <= target / 2.0;
+        let step = (0..steps).find(enough).unwrap_or(steps);
+        let (stopping, ambient) = (plain[least(step)].steps[step].0, least(step) == 1);
+        let at = |pilot: &Pilot| pilots.solution(&pilot.stops[step], ambient);
+
+        let four = pilots.run(&Knobs { pixels: 4 * FIRST_PIXELS, ..start }, step)?;
+        let coarse = pilots.difference(&at(&one), &at(&four)) / 1.0_f64.hypot(1.0 / fall(4.0));
+        let directions = coarse / fall(4.0);
+        let fine = at(&four);
+        pilots.sharpen(&fine, target * target / 10.0);
+        let known = directions * directions + stopping * stopping;
+        let rest = (pilots.error(&fine).square - known).max(0.0).sqrt();
+        // Sources cut in four, each with a quarter of the rays: what a patch shoots stays the same.
+        let mut centre = 0.0;
+        if rest > target / 4.0 {
+            let cut = pilots.run(&Knobs { split: 2, ..start }, step)?;
+            let noise = directions.hypot(coarse / 2.0);
+            centre = (without(pilots.difference(&fine, &at(&cut)), noise) / 0.75).min(rest);
+        }
+        let [first, fourth] = [&one, &four].map(|pilot| pilot.stops[step].time_s);
+        let a_pixel = (fourth / first - 1.0) / f64::from(3 * FIRST_PIXELS);
+        Ok(Family {
+            mesh,
+            curves,
+            directions: (directions, 4 * FIRST_PIXELS),
+            centre,
+            of_mesh: (rest * rest - centre * centre).sqrt(),
+            fixed: 1.0 - a_pixel * f64::from(FIRST_PIXELS),
+            a_pixel,
+            error_correction: 1.0,
+            time_correction: 1.0,
+        })
+    }
+
+    /// What is to be expected on a mesh so many times as long, without a pilot run there. Assumed: its
+    /// patches are shot as deep, so that time goes with their number.
+    pub fn scaled(&self, times: f64) -> Family {
+        Family {
+            mesh: self.mesh * times,
+            centre: self.centre * times * times,
+            of_mesh: self.of_mesh * times,
+            time_correction: 1.0 / (times * times),
+            ..self.clone()
+        }
+    }
+
+    /// What is wrong whatever the directions and the stop.
+    pub fn rest(&self) -> f64 {
+        self.centre.hypot(self.of_mesh)
+    }
+
+    /// All settings within reach.
+    pub fn settings(&self) -> impl Iterator<Item = Proposal> {
+        let pixels = (0..).map(|i| (128.0 * 2.0_f64.powf(f64::from(i) / 2.0)) as u32);
+        let pixels = pixels.take_while(|&pixels| pixels <= MOST_PIXELS);
+        let cast = pixels.flat_map(|pixels| SPLITS.map(|split| (pixels, split)));
+        cast.flat_map(move |(pixels, split)| {
+            self.curves.iter().flat_map(move |curve| {
+                (0..curve.steps.len()).map(move |step| self.setting(pixels, split, curve, step))
+            })
+        })
+    }
+
+    fn setting(&self, pixels: u32, split: u32, curve: &Curve, step: usize) -> Proposal {
+        let &Curve { overshoot, ambient, .. } = curve;
+        let (stopping, time_s) = curve.steps[step];
+        let parts = f64::from(split);
+        let rays = f64::from(pixels) / f64::from(self.directions.1);
+        let times = (self.fixed + self.a_pixel * f64::from(pixels)) * parts * parts;
+        let threshold = threshold(step);
+        Proposal {
+            knobs: Knobs { mesh: self.mesh, pixels, split, threshold, overshoot, ambient },
+            step,
+            causes: Causes {
+                directions: self.error_correction * self.directions.0 / fall(rays) / parts,
+                centre: self.error_correction * self.centre / (parts * parts),
+                mesh: self.error_correction * self.of_mesh,
+                stopping,
+            },
+            time_s: time_s * times * self.time_correction,
+        }
+    }
+
+    /// The same setting stopped at another step, with or without the ambient term, as far as it is known.
+    pub fn stopped(&self, of: &Proposal, step: usize, ambient: bool) -> Option<Proposal> {
+        let same = |c: &&Curve| c.overshoot == of.knobs.overshoot && c.ambient == ambient;
+        let curve = self.curves.iter().find(same)?;
+        (step < curve.steps.len())
+            .then(|| self.setting(of.knobs.pixels, of.knobs.split, curve, step))
+    }
+
+    /// Learns what came of a setting: the square of its error, and its time.
+    pub fn learn(&mut self, proposal: &Proposal, square: f64, time_s: f64) {
+        let Causes { stopping, .. } = proposal.causes;
+        let told = Causes { stopping: 0.0, ..proposal.causes }.total();
+        let found = (square - stopping * stopping).max(0.0).sqrt();
+        self.error_correction *= (found / told.max(f64::MIN_POSITIVE)).clamp(0.5, 2.0);
+        self.time_correction *= time_s / proposal.time_s;
+    }
+}
+
+/// A pilot run that stops where little is left, and the error of the estimate of it.
+fn converged(
+    pilots: &Pilots,
+    knobs: &Knobs,
+    target: f64,
+) -> Result<(std::rc::Rc<Pilot>, f64), String> {
+    let mut steps = FIRST_STEPS;
+    loop {
+        let pilot = pilots.run(knobs, steps)?;
+        let stops = &pilot.stops;
+        let last = stops.len() - 1;
+        let back = |steps: usize| pilots.solution(&stops[last - steps], true);
+        let (after, before) =
+            (pilots.difference(&back(0), &back(2)), pilots.difference(&back(2), &back(4)));
+        // What is to come falls from halving to halving as it did, half as fast at best.
+        let falls = if before > 0.0 { (after / before).clamp(0.5, 0.9) } else { 0.9 };
+        let tail = after * falls / (1.0 - falls);
+        // A halving that hardly a patch lies in changes nothing, and says nothing.
+        let [left, before] = [last, last - 2].map(|step| stops[step].unshot.abs());
+        let enough = tail <= target / 4.0 && (left <= target || left < 0.9 * before);
+        if enough || last >= MOST_STEPS {
+            return Ok((pilot, tail));
+        }
+        steps = last + 4;
+    }
+}
+
+/// By how much the error of directions falls with so many times the rays.
+fn fall(times: f64) -> f64 {
+    times.powf(DIRECTIONS_POWER)
+}
+
+/// A difference without what noise does of it; never less than a tenth of it: the noise is an estimate
+/// as well.
+fn without(difference: f64, noise: f64) -> f64 {
+    (difference * difference - noise * noise).max(0.01 * difference * difference).sqrt()
+}

@@ -1,0 +1,110 @@
+//! A setting of the knobs that was found, what it should give, and why it is no other.
+
+use crate::accuracy::pilot::Knobs;
+
+/// The columns of runs.csv.
+pub const COLUMNS: [&str; 11] = [
+    "target_l2",
+    "predicted_l2",
+    "predicted_deviation",
+    "predicted_directions",
+    "predicted_centre",
+    "predicted_mesh",
+    "predicted_stopping",
+    "predicted_time_s",
+    "sweep_time_s",
+    "cost_over_sweep",
+    "knobs",
+];
+
+/// A setting that was found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tuned {
+    /// What was asked for.
+    pub target: f64,
+    /// The setting.
+    pub knobs: Knobs,
+    /// Its error, as witnesses say.
+    pub error: f64,
+    /// The standard error of what they say.
+    pub deviation: f64,
+    /// What makes it up, by the laws that led there.
+    pub predicted: Causes,
+    /// Its virtual time on one processor, seconds.
+    pub time_s: f64,
+    /// The least time of a sweep's runs below the target, if there is such a sweep, seconds.
+    pub sweep_time_s: Option<f64>,
+    /// Pilot runs that it took to find.
+    pub pilots: usize,
+}
+
+/// Errors by cause, each relative to what is reflected; estimates.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Causes {
+    /// A hemisphere has so many directions and no more.
+    pub directions: f64,
+    /// Patches shoot from the centres of their parts.
+    pub centre: f64,
+    /// Patches are of one radiosity each.
+    pub mesh: f64,
+    /// Shooting ends before all is shot.
+    pub stopping: f64,
+}
+
+impl Causes {
+    fn named(&self) -> [(&'static str, f64); 4] {
+        let Causes { directions, centre, mesh, stopping } = *self;
+        [
+            ("directions", directions),
+            ("centre sampling", centre),
+            ("mesh", mesh),
+            ("stopping", stopping),
+        ]
+    }
+
+    /// All together: they know nothing of each other.
+    pub fn total(&self) -> f64 {
+        self.named().iter().map(|(_, error)| error * error).sum::<f64>().sqrt()
+    }
+}
+
+impl Tuned {
+    /// The cell of a column.
+    pub fn cell(&self, column: &str) -> Option<String> {
+        let Causes { directions, centre, mesh, stopping } = self.predicted;
+        let value = match column {
+            "target_l2" => return Some(self.target.to_string()),
+            "predicted_l2" => self.error,
+            "predicted_deviation" => self.deviation,
+            "predicted_directions" => directions,
+            "predicted_centre" => centre,
+            "predicted_mesh" => mesh,
+            "predicted_stopping" => stopping,
+            "predicted_time_s" => return Some(format!("{:.6}", self.time_s)),
+            "sweep_time_s" => return self.sweep_time_s.map(|time_s| format!("{time_s:.6}")),
+            "cost_over_sweep" => {
+                return self.sweep_time_s.map(|time_s| format!("{:.4}", self.time_s / time_s));
+            }
+            "knobs" => return Some(self.knobs.to_string()),
+            _ => return None,
+        };
+        Some(format!("{value:.6e}"))
+    }
+
+    /// What was chosen for a scene and why, for people.
+    pub fn sentence(&self, scene: &str) -> String {
+        let percent = |share: f64| format!("{:.2} %", 100.0 * share);
+        let causes =
+            self.predicted.named().map(|(name, error)| format!("{name} {}", percent(error)));
+        format!(
+            "{scene} to {}: {}. Predicted error {:.2} ± {} ({}), {:.0} s on one processor; {} pilot runs.",
+            percent(self.target),
+            self.knobs,
+            100.0 * self.error,
+            percent(self.deviation),
+            causes.join(", "),
+            self.time_s,
+            self.pilots,
+        )
+    }
+}

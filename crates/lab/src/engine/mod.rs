@@ -1,0 +1,17 @@
+//! One run. The only folder that calls the simulator.
+//!
+//! - [`simulator`]: A run from its rules to its figures.
+//! - [`knobs`]: How patches are shot.
+//! - [`network`]: The network model of a run.
+//! - [`figures`]: What one run found.
+//! - [`message_layer`]: Figures of the message layer.
+//! - [`start_up`]: Figures of the start-up.
+//! - [`error_causes`]: Figures of the causes of an error.
+
+pub mod error_causes;
+pub mod figures;
+pub mod knobs;
+pub mod message_layer;
+pub mod network;
+pub mod simulator;
+pub mod start_up;

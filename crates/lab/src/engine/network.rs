@@ -1,0 +1,113 @@
+//! Which model of the network a run is simulated on, and what it tells of the network.
+
+use multicomputer::{
+    AutoResult, Machine, MachineError, ModelChoice, NetworkModel, Record, Recorder,
+};
+use serde::{Deserialize, Serialize};
+use virtwall::{Outcome, Run, RunError, SharedObserver, simulate_observed};
+
+use crate::experiment::fields::Experiment;
+
+/// How far "auto" may be from the next finer model, unless the experiment says.
+const TOLERANCE: f64 = 0.01;
+
+/// What a run tells of its network, where an experiment asks for a model.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NetworkFigures {
+    /// The model used.
+    pub rung: String,
+    /// Why, if it was not the experiment that said so.
+    pub why: String,
+    /// The part of the time in which the link that was used most carried bytes.
+    pub busiest_link: Option<f64>,
+    /// How long messages held each other up, all added, seconds.
+    pub blocked_s: f64,
+}
+
+/// Makes sure that a machine's file says enough for the model that an experiment asks for.
+///
+/// # Errors
+/// What is missing.
+pub fn check(machine: &Machine, choice: Option<ModelChoice>) -> Result<(), MachineError> {
+    match choice.and_then(ModelChoice::model) {
+        Some(rung) => machine.network_on(rung).map(|_| ()),
+        None => Ok(()),
+    }
+}
+
+/// Whether results tell of the network: an experiment, or a machine's file, that leaves the model open
+/// wants to know what was chosen.
+pub fn tells(machine: &Machine, choice: Option<ModelChoice>) -> bool {
+    choice.is_some() || machine.network_model.is_none()
+}
+
+/// Whether runs are simulated to find out which model will do: whoever observes one then has it simulated
+/// once more.
+pub fn is_open(machine: &Machine, choice: Option<ModelChoice>) -> bool {
+    choice.map_or(machine.network_model, ModelChoice::model).is_none()
+}
+
+/// Simulates a run on the model that an experiment asks for, or else the machine's file, and tells
+/// `observer` of it.
+///
+/// # Errors
+/// Why the run did not end.
+pub fn simulate(
+    run: &Run,
+    machine: &Machine,
+    point: &Experiment,
+    observer: Option<SharedObserver>,
+) -> Result<(Outcome, Option<NetworkFigures>), RunError> {
+    if !tells(machine, point.network) {
+        return Ok((simulate_observed(run, machine, machine.network(), observer)?, None));
+    }
+    let over = |network| {
+        let outcome = virtwall::simulate_over(run, machine, network)?;
+        Ok::<_, RunError>((outcome.time, outcome))
+    };
+    let chosen = match point.network.map_or(machine.network_model, ModelChoice::model) {
+        None => {
+            let tolerance = point.network_tolerance.as_ref().map_or(TOLERANCE, |t| t.value());
+            let chosen =
+                multicomputer::choose(&machine.parameters, machine.topology(), tolerance, over)?;
+            if observer.is_some() {
+                // Pilots are not what is observed, and which run is the last one shows only then.
+                simulate_observed(run, machine, machine.network_on(chosen.model)?, observer)?;
+            }
+            chosen
+        }
+        Some(rung) => {
+            let (network, record) = Recorder::new(machine.network_on(rung)?);
+            let answer = simulate_observed(run, machine, Box::new(network), observer)?;
+            let time = answer.time;
+            AutoResult { model: rung, answer, time, record: record.take(), why: String::new() }
+        }
+    };
+    let figures = figures(machine, &chosen);
+    Ok((chosen.answer, Some(figures)))
+}
+
+/// The model that a run is simulated on; where that is left open, it is simulated to find out.
+///
+/// # Errors
+/// Why the run did not end.
+pub fn rung(run: &Run, machine: &Machine, point: &Experiment) -> Result<NetworkModel, RunError> {
+    match point.network.map_or(machine.network_model, ModelChoice::model) {
+        Some(rung) => Ok(rung),
+        None => {
+            let (_, figures) = simulate(run, machine, point, None)?;
+            Ok(figures.and_then(|figures| figures.rung.parse().ok()).unwrap_or(NetworkModel::LogGp))
+        }
+    }
+}
+
+fn figures(machine: &Machine, chosen: &AutoResult<Outcome>) -> NetworkFigures {
+    let record: &Record = &chosen.record;
+    let links = machine.parameters.links.as_ref();
+    NetworkFigures {
+        rung: chosen.model.to_string(),
+        why: chosen.why.clone(),
+        busiest_link: links.map(|l| record.busiest_link(machine.topology(), l, chosen.time)),
+        blocked_s: record.blocked().as_seconds_f64(),
+    }
+}

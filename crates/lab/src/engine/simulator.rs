@@ -1,0 +1,325 @@
+//! The one door to the simulator: beyond it nothing here knows how a kernel or a link works.
+
+use std::borrow::Cow;
+use std::cell::RefCell;
+use std::rc::Rc;
+use std::sync::Arc;
+
+use desim::Time;
+use multicomputer::Machine;
+use radiosity::{Operation, Rgb};
+use serde::Serialize;
+use virtwall::{
+    Ending, Instant, KeptShots, Outcome, Problem, Rules, Run, RunError, SharedObserver,
+    StartUpStep, Thing,
+};
+
+use crate::engine::figures::{Energy, Figures};
+use crate::engine::knobs;
+use crate::engine::message_layer::{self, MessageLayerFigures};
+use crate::engine::network;
+use crate::engine::start_up::StartUpFigures;
+use crate::experiment::display::DisplayFigures;
+use crate::experiment::fields::{self as fields, Experiment};
+use crate::experiment::node_memory;
+use crate::files::fault::Fault;
+use crate::files::find::Found;
+use crate::open::machine_file::MachineFile;
+
+/// What the programs run on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum On {
+    /// The simulated machine.
+    #[default]
+    Simulation,
+    /// Threads of this host: the same light, no virtual time.
+    Threads,
+}
+
+/// Names of the operations that runs count.
+pub fn operations() -> impl Iterator<Item = &'static str> {
+    Operation::ALL.iter().map(|operation| operation.name())
+}
+
+/// Reads a machine description and makes sure that it prices every operation.
+///
+/// # Errors
+/// What is wrong with the file, and where.
+pub fn load_machine(found: &Found) -> Result<MachineFile, Fault> {
+    let file = MachineFile::load(found)?;
+    let processor = &file.machine.processor;
+    let priced = |operation: &&Operation| processor.price(operation.name()).is_some();
+    match Operation::ALL.iter().find(|operation| !priced(operation)) {
+        None => sized(file, found),
+        Some(operation) => {
+            let message = format!("no price of \"{}\"; expected one of each", operation.name());
+            Err(Fault::of_file(found.path.display(), message))
+        }
+    }
+}
+
+/// Makes sure that a machine with memory gives everything a size, and one with a start-up every step a
+/// price.
+fn sized(file: MachineFile, found: &Found) -> Result<MachineFile, Fault> {
+    let machine = &file.machine;
+    let thing = machine.node_memory.as_ref().and_then(Thing::without_size);
+    let step = machine.start_up.as_ref().and_then(StartUpStep::without_price);
+    let message = match (thing, step) {
+        (Some(thing), _) => format!("no size of \"{}\"; expected one of each", thing.name()),
+        (_, Some(step)) => {
+            format!("start_up.operations: no price of \"{}\"; expected one of each", step.name())
+        }
+        (None, None) => return Ok(file),
+    };
+    Err(Fault::of_file(found.path.display(), message))
+}
+
+/// The run of a problem at one point of an experiment; `on_shot` is called after every shot.
+pub fn run(
+    problem: &Arc<Problem>,
+    point: &Experiment,
+    kept: &Arc<KeptShots>,
+    on_shot: Arc<dyn Fn() + Send + Sync>,
+) -> Run {
+    Run {
+        problem: Arc::clone(problem),
+        processors: point.processors as usize,
+        rules: rules(point),
+        kept: Arc::clone(kept),
+        on_shot,
+    }
+}
+
+/// Runs a point's run to the end, on the simulated `machine`, where it can be observed, or on threads:
+/// its figures, and its radiosities by environment.
+///
+/// # Errors
+/// Why the run did not end.
+pub fn carry_out(
+    run: &Run,
+    point: &Experiment,
+    on: On,
+    machine: &Machine,
+    scene_bytes: u64,
+    observer: Option<SharedObserver>,
+) -> Result<(Figures, Vec<Vec<Rgb>>), String> {
+    let machine = &*changed(machine, point);
+    let simulated = || {
+        let start_up = virtwall::start_up(run, machine, scene_bytes)?;
+        let (outcome, network) = network::simulate(run, machine, point, observer)?;
+        Ok((outcome, network, start_up))
+    };
+    let outcome = match on {
+        On::Simulation => simulated(),
+        On::Threads => virtwall::run_on_threads(run).map(|outcome| (outcome, None, None)),
+    };
+    let (outcome, network, start_up) = outcome.map_err(|error: RunError| error.to_string())?;
+    let start_up = start_up.as_ref().map(StartUpFigures::of);
+    let tells = on == On::Simulation && message_layer::tells(machine);
+    let message_layer = tells.then(|| MessageLayerFigures::of(&outcome.layer()));
+    let caches = on == On::Simulation && !machine.processor.caches.is_empty();
+    let missing_s = caches.then(|| outcome.missing().as_seconds_f64());
+    let translating_s = caches && machine.processor.translations.is_some();
+    let translating_s = translating_s.then(|| outcome.translating().as_seconds_f64());
+    let figures = figures(&run.problem, &outcome, on == On::Simulation);
+    let counted = start_up.filter(|_| point.count_start_up).map_or(0.0, |s| s.start_up_s);
+    let time_s = figures.time_s.map(|time_s| time_s + counted);
+    let figures =
+        Figures { time_s, network, message_layer, start_up, missing_s, translating_s, ..figures };
+    Ok((figures, outcome.radiosity))
+}
+
+/// The machine as a point of an experiment has it.
+fn changed<'a>(machine: &'a Machine, point: &Experiment) -> Cow<'a, Machine> {
+    if point.node_memory.is_empty() && point.display.is_empty() {
+        return Cow::Borrowed(machine);
+    }
+    let mut machine = machine.clone();
+    machine.node_memory.iter_mut().for_each(|memory| point.node_memory.lay_over(memory));
+    machine.display.iter_mut().for_each(|display| point.display.lay_over(display));
+    Cow::Owned(machine)
+}
+
+/// Radiosity in W/m², by environment and patch.
+pub type Light = Vec<Vec<Rgb>>;
+
+/// The light of a simulated run at each of `times`, in rising order; and the run's end, after which
+/// there is no other light.
+///
+/// # Errors
+/// Why the run did not end.
+pub fn light_at(
+    run: &Run,
+    point: &Experiment,
+    machine: &Machine,
+    times: &[Time],
+) -> Result<(Vec<Light>, Time), String> {
+    let machine = changed(machine, point);
+    let light = Rc::new(RefCell::new(Vec::new()));
+    let visit = {
+        let light = Rc::clone(&light);
+        move |instant: Instant| {
+            light.borrow_mut().push(instant.radiosity().map(Iterator::collect).collect());
+        }
+    };
+    let outcome = network::rung(run, &machine, point)
+        .and_then(|rung| Ok(machine.network_on(rung)?))
+        .and_then(|network| virtwall::visit_instants(run, &machine, network, times, visit))
+        .map_err(|error| error.to_string())?;
+    Ok((light.take(), outcome.time))
+}
+
+/// A run as it would have ended at a threshold.
+pub struct Stopped {
+    /// Virtual seconds.
+    pub time_s: f64,
+    /// The part of the emitted energy that was not shot.
+    pub unshot: f64,
+    /// Radiosity in W/m², by patch, one environment after the other.
+    pub radiosity: Vec<Rgb>,
+    /// What the ambient term would add where all is reflected, W/m².
+    pub ambient: Rgb,
+}
+
+/// A run on one processor as it would end at each of `thresholds`, in falling order, the last of which is
+/// its own.
+///
+/// # Errors
+/// Why the run did not end.
+pub fn stops(
+    run: &Run,
+    point: &Experiment,
+    machine: &Machine,
+    thresholds: &[f64],
+) -> Result<Vec<Stopped>, String> {
+    let machine = changed(machine, point);
+    let stops = Rc::new(RefCell::new(Vec::new()));
+    let visit = {
+        let stops = Rc::clone(&stops);
+        move |instant: Instant| {
+            let energy = &instant.energy;
+            let left = (energy.unshot + energy.in_transit).element_sum();
+            stops.borrow_mut().push(Stopped {
+                time_s: instant.time.as_seconds_f64(),
+                unshot: left / energy.emitted.element_sum().max(f64::MIN_POSITIVE),
+                radiosity: instant.radiosity().flatten().collect(),
+                ambient: instant.ambient(),
+            });
+        }
+    };
+    let rung = network::rung(run, &machine, point).map_err(|error| error.to_string())?;
+    // Among several environments a run is not the beginning of another one.
+    let together = if run.problem.environments.len() == 1 { thresholds.len().max(1) } else { 1 };
+    for thresholds in thresholds.chunks(together) {
+        let network = machine.network_on(rung).map_err(|error| error.to_string())?;
+        let mut run = run.clone();
+        run.rules.patch_threshold = thresholds[thresholds.len() - 1];
+        virtwall::visit_stops(&run, &machine, network, thresholds, visit.clone())
+            .map_err(|error| error.to_string())?;
+    }
+    Ok(stops.take())
+}
+
+/// Shots after which a scene counts as solved.
+const MOST_SHOTS: u64 = 5_000;
+
+/// The light in a problem of one environment when less than a part of it is unshot, or after so many
+/// shots; and the part that is unshot.
+pub fn solved(problem: &Problem, unshot: f64) -> (Light, f64) {
+    let whole = &problem.environments[0];
+    let (light, _) =
+        radiosity::solve(&problem.space, whole, &problem.hemisphere, unshot, MOST_SHOTS);
+    let patches = 0..whole.patches.len() as u32;
+    let radiosity = patches.map(|patch| light.radiosity(whole, patch)).collect();
+    let emitted = problem.emitted_power().element_sum();
+    let left = light.unshot_power().element_sum();
+    (vec![radiosity], if emitted > 0.0 { left / emitted } else { 0.0 })
+}
+
+/// Runs a point's run to the end on the simulated `machine`: all that it found.
+///
+/// # Errors
+/// Why the run did not end.
+pub fn outcome(run: &Run, point: &Experiment, machine: &Machine) -> Result<Outcome, String> {
+    let found = network::simulate(run, &changed(machine, point), point, None);
+    found.map(|(outcome, _)| outcome).map_err(|error| error.to_string())
+}
+
+/// The outcome's figures; times only if they are virtual.
+fn figures(problem: &Problem, outcome: &Outcome, virtual_time: bool) -> Figures {
+    let energy = &outcome.energy;
+    let share = |part: Rgb| match energy.emitted.element_sum() {
+        0.0 => 0.0,
+        emitted => part.element_sum() / emitted,
+    };
+    Figures {
+        time_s: virtual_time.then(|| outcome.time.as_seconds_f64()),
+        local_shots: outcome.counts.local_shots,
+        received_shots: outcome.counts.received_shots,
+        messages: outcome.counts.messages,
+        message_bytes: outcome.counts.message_bytes,
+        update_messages: outcome.counts.update_messages,
+        update_bytes: outcome.counts.update_bytes,
+        control_messages: outcome.counts.control_messages,
+        busy_fraction: virtual_time.then(|| outcome.busy_fraction()),
+        energy_error: energy.error(),
+        energy: Energy {
+            absorbed: share(energy.absorbed),
+            unshot: share(energy.unshot),
+            in_transit: share(energy.in_transit),
+            escaped: share(energy.escaped),
+            medium: share(energy.medium),
+        },
+        too_early: match outcome.ending {
+            Ending::Agreed => None,
+            Ending::TooEarly { lost } => Some(lost),
+        },
+        patches: problem.patches() as u64,
+        network: None,
+        memory: node_memory::figures(outcome),
+        message_layer: None,
+        errors: None,
+        display: outcome.display.as_ref().map(DisplayFigures::of),
+        start_up: None,
+        missing_s: None,
+        translating_s: None,
+        work: outcome.work.counts().map(|(op, n)| (op.name().to_owned(), n)).collect(),
+    }
+}
+
+/// The processor of each environment at one point of an experiment.
+pub fn owners(point: &Experiment, problem: &Problem) -> Vec<usize> {
+    let environments = problem.environments.len() as u32;
+    rules(point).mapping.owners(environments, point.processors as usize)
+}
+
+/// The rules that a point of an experiment sets.
+fn rules(point: &Experiment) -> Rules {
+    Rules {
+        selection: match point.selection {
+            fields::Selection::Energy => virtwall::Selection::Energy,
+            fields::Selection::DeltaRadiosity => virtwall::Selection::DeltaRadiosity,
+        },
+        ties: match point.ties {
+            fields::Ties::ReceivedFirst => virtwall::Ties::ReceivedFirst,
+            fields::Ties::LocalFirst => virtwall::Ties::LocalFirst,
+        },
+        order: match point.order {
+            fields::Order::Best => virtwall::Order::Best,
+            fields::Order::InTurn => virtwall::Order::InTurn,
+        },
+        patch_threshold: point.stop.patch_threshold.value(),
+        energy_threshold: point.stop.energy_threshold.value(),
+        collect_every: desim::Duration::from_seconds_f64(point.stop.collect_every.value()),
+        wall_threshold: point.virtual_walls.threshold.value(),
+        radiosity_updates: point.radiosity_updates,
+        merge_masks: point.merge_masks,
+        mapping: match point.mapping {
+            fields::Mapping::Blocks => virtwall::Mapping::Blocks,
+            fields::Mapping::Cyclic => virtwall::Mapping::Cyclic,
+            fields::Mapping::Random => virtwall::Mapping::Random(point.seed),
+        },
+        shooting: knobs::shooting(point),
+    }
+}

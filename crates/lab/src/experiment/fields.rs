@@ -1,0 +1,357 @@
+//! An experiment file, typed: one point of its sweep, every field as the user may write it.
+
+use std::collections::BTreeMap;
+
+use multicomputer::ModelChoice;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+
+use crate::experiment::accuracy::AccuracyFields;
+use crate::experiment::display::DisplayFields;
+use crate::experiment::hemisphere::Hemisphere;
+use crate::experiment::interfaces::{Interfaces, VirtualWalls};
+use crate::experiment::node_memory::NodeMemoryFields;
+use crate::experiment::refine::RefineFields;
+use crate::experiment::source_split::SplitFields;
+use crate::files::quantity::{Fraction, Length, Period, Triple};
+use crate::files::schema;
+
+/// Fields of an experiment file in which a list is no sweep.
+pub const UNSWEPT: [&str; 4] = ["$schema", "title", "compare_with", "plots"];
+
+/// The schema of an experiment file.
+pub fn experiment_schema() -> Value {
+    let mut schema = schema::of::<Experiment>();
+    schema::sweepable(&mut schema, &UNSWEPT);
+    schema
+}
+
+/// An experiment: the runs of a scene on a machine, and what to draw of them.
+///
+/// One rule makes every sweep: where one value is expected, a list of values sweeps it. The runs
+/// are the product of all lists, the first list in the file slowest, and each swept field is a
+/// column of runs.csv. Only in "plots" a list is a plain list.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "Virtwall experiment")]
+pub struct Experiment {
+    /// Where this schema lies, for editors.
+    #[serde(rename = "$schema", default, skip_serializing_if = "Option::is_none")]
+    pub schema: Option<String>,
+    /// What the experiment shows, for people.
+    pub title: String,
+    /// The scene: the name of a file in scenes/, or a path, relative to this file, to a scene
+    /// description (.json) or a bare OBJ file (.obj).
+    pub scene: String,
+    /// The machine: the name of a file in machines/, or a path, relative to this file.
+    #[serde(default = "default_machine")]
+    pub machine: String,
+    /// Model of the network, in place of the one that the machine's file chooses. With it come the
+    /// columns network_used, network_why, busiest_link and blocked_s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub network: Option<ModelChoice>,
+    /// How far the time on the network "auto" may be from that on the next finer one. Default: 1 %.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub network_tolerance: Option<Fraction>,
+    /// Memory of a node, in place of what the machine's file says; its file must model it. Results on
+    /// such a machine have the columns memory_high_water, the bytes of the fullest node, and paging_s.
+    #[serde(default, skip_serializing_if = "NodeMemoryFields::is_empty")]
+    pub node_memory: NodeMemoryFields,
+    /// The display, in place of what the machine's file says; its file must model one. Results on such a
+    /// machine have the columns display_lag_s, updates_shown, updates_dropped, waiting_for_display_s,
+    /// service_busy_fraction, ethernet_busy_fraction and display_busy_fraction. Paper: Figure 6.
+    #[serde(default, skip_serializing_if = "DisplayFields::is_empty")]
+    pub display: DisplayFields,
+    /// Whether time_s begins with the start-up, in place of the end of initialisation; the machine's file
+    /// must model it. Results on such a machine have the columns start_up_s, reading_s and disk_wait_s.
+    /// Paper: §4.2.1.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub count_start_up: bool,
+    /// Compute nodes used, at most as many as there are local environments. Paper: Table 1.
+    #[schemars(range(min = 1))]
+    pub processors: u32,
+    /// Local environments that the scene is cut into. Paper: 56 (§5.3).
+    #[serde(default = "default_local_environments")]
+    #[schemars(range(min = 1))]
+    pub local_environments: u32,
+    /// Local environments along x, y and z, such as "14x4x1"; they make "local_environments" in
+    /// all. Default: the scene file's cut for that number, else the one whose environments are
+    /// nearest to cubes. Choice C2: the paper's cut is "straightforward and automatic" (§4.2.1).
+    #[serde(default)]
+    pub cut: Option<Triple>,
+    /// Cells of the whole scene along x, y and z, such as "56x28x14". Cut planes lie between
+    /// cells. Default: the scene file's, else about one cell a polygon. Choice C10: the paper
+    /// tells no number, only that it is the same for every cut (§5.2).
+    #[serde(default)]
+    pub cells: Option<Triple>,
+    /// Longest edge of a patch, such as "0.30 m". Default: the scene file's, else a fiftieth of
+    /// the scene's diagonal.
+    #[serde(default)]
+    pub patch_size: Option<Length>,
+    /// Longest edge of a patch that emits light. Default: the scene file's, else as
+    /// "patch_size". Choice C11: how finely the paper's lights are meshed is unpublished; it
+    /// decides how many shots there are.
+    #[serde(default)]
+    pub emitter_patch_size: Option<Length>,
+    /// Smaller patches where radiosity changes.
+    #[serde(default, skip_serializing_if = "RefineFields::is_none")]
+    pub refine: RefineFields,
+    /// The hemisphere of rays over a source.
+    #[serde(default)]
+    pub hemisphere: Hemisphere,
+    /// What carries light across from one local environment to the next.
+    #[serde(default, skip_serializing_if = "Interfaces::are_masks")]
+    pub interfaces: Interfaces,
+    /// How virtual walls are meshed, where they stand in place of masks.
+    #[serde(default, skip_serializing_if = "VirtualWalls::are_default")]
+    pub virtual_walls: VirtualWalls,
+    /// Bits of an integer of a mask where the scene has media: 8 or 16, 16 by default. Choice C42: the paper
+    /// has such masks in sight and says no more (§3.2).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 8, max = 16))]
+    pub mask_bits: Option<u32>,
+    /// Into how many sources a patch is cut, where things near it deserve that.
+    #[serde(default, skip_serializing_if = "SplitFields::is_none")]
+    pub source_split: SplitFields,
+    /// How much a patch that does not emit shoots, over what it has not shot: what is still to come
+    /// is shot in advance, from 1 to less than 2.
+    #[serde(default = "one", skip_serializing_if = "is_one")]
+    pub overshoot: f64,
+    /// Whether radiosities are told with an estimate of what the light that was not shot would add,
+    /// the ambient term. It changes nothing but their errors.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub ambient: bool,
+    /// What radiosities are held against: "dense", the dense solution of the run's own mesh; "stored",
+    /// results/references/<scene>.json as `virtwall reference` stores it; the name of another one
+    /// there, or a path. With it come the columns error_l2, error_max and reference_error, all
+    /// relative to the root mean square of what is reflected.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reference: Option<String>,
+    /// Whether to take each run's error apart, by some more runs: columns error_stopping,
+    /// error_directions, error_sampling and error_mesh. It needs a "reference".
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub error_causes: bool,
+    /// The error that results are to stay below: the knobs that trade accuracy for time are found by
+    /// pilot runs, for each scene the cheapest that will do, and stand in the columns from target_l2
+    /// on.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<AccuracyFields>,
+    /// Which source a node shoots next. Choice C4: §3.2 says the most unshot energy, §4.2.2 the
+    /// greatest delta-radiosity.
+    #[serde(default)]
+    pub selection: Selection,
+    /// Which source goes first when a received and a local one are worth the same. Choice C5:
+    /// the paper does not say.
+    #[serde(default)]
+    pub ties: Ties,
+    /// Whether the next source is looked for in all environments of a processor (Figure 9), or in one after
+    /// the other (§5.2). Choice C45: both are the paper's.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub order: Order,
+    /// When sources are no longer shot.
+    #[serde(default)]
+    pub stop: Stop,
+    /// Whether a mask that arrives while another one of the same source waits for the same local
+    /// environment is merged with it. Choice C9: the paper puts all sources that arrive into the
+    /// queue, and says no more.
+    #[serde(default)]
+    pub merge_masks: bool,
+    /// How local environments are given to processors. Choice C3: the paper says automatic,
+    /// without load balancing (§4.2.1).
+    #[serde(default)]
+    pub mapping: Mapping,
+    /// Whether compute nodes send radiosity updates to the service node. Paper: Figure 6.
+    #[serde(default = "yes")]
+    pub radiosity_updates: bool,
+    /// Whether runs use the shots of others again. It changes no result, only what
+    /// the host takes: off where that is to be measured, so that no run lives on another's work.
+    #[serde(default = "yes", skip_serializing_if = "is_true")]
+    pub reuse_shots: bool,
+    /// Seed of every random choice.
+    #[serde(default = "default_seed")]
+    pub seed: u64,
+    /// A CSV file, relative to this one, with the columns scene, processors, time_s and speed_up:
+    /// published figures to stand beside ours.
+    #[serde(default)]
+    pub compare_with: Option<String>,
+    /// What to draw. Lists are plain lists here, they sweep nothing.
+    #[serde(default)]
+    pub plots: Vec<Plot>,
+}
+
+impl Experiment {
+    /// A scene by itself: one processor, one local environment, all else by default.
+    pub fn of_one_environment(scene: &str) -> Experiment {
+        let fields = json!({
+            "title": "", "scene": scene, "processors": 1, "local_environments": 1,
+        });
+        serde_json::from_value(fields).expect("all fields that have no default are there")
+    }
+}
+
+/// Which source a node shoots next.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Selection {
+    /// The one with the most unshot energy.
+    #[default]
+    Energy,
+    /// The one with the greatest unshot radiosity.
+    DeltaRadiosity,
+}
+
+/// Which of two sources of the same worth goes first.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Ties {
+    /// The one that another node sent.
+    #[default]
+    ReceivedFirst,
+    /// The node's own.
+    LocalFirst,
+}
+
+/// Where a processor looks for its next source.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Order {
+    /// In all its environments.
+    #[default]
+    Best,
+    /// In one until nothing is left there to shoot, then in the next that has something.
+    InTurn,
+}
+
+/// How local environments are given to processors.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Mapping {
+    /// Contiguous blocks, as equal as can be.
+    #[default]
+    Blocks,
+    /// One after the other, in turn.
+    Cyclic,
+    /// Equal shares, shuffled by the seed.
+    Random,
+}
+
+/// When sources are no longer shot.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Stop {
+    /// A local patch is never selected under this share of what the brightest patch begins with.
+    /// Choice C6: the paper's threshold is unpublished.
+    pub patch_threshold: Fraction,
+    /// The service node ends selection when unshot energy and energy in transit fall to this
+    /// share of the emitted energy. Choice C7: unpublished.
+    pub energy_threshold: Fraction,
+    /// How often the service node collects the energy left. Choice C8: unpublished.
+    pub collect_every: Period,
+}
+
+impl Default for Stop {
+    fn default() -> Stop {
+        Stop {
+            patch_threshold: Fraction::parse("10 %").expect("10 % is a fraction"),
+            energy_threshold: Fraction::parse("0 %").expect("0 % is a fraction"),
+            collect_every: Period::parse("1 s").expect("1 s is a time"),
+        }
+    }
+}
+
+/// One plot of the results.
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Plot {
+    /// What runs along the horizontal axis: a column of runs.csv, a count of operations such as
+    /// "operations.ray", a time of the host such as "host.cpu_s", or the product of several, such as
+    /// "patches*local_shots".
+    pub x: String,
+    /// What runs along the vertical axis, said in the same way.
+    pub y: String,
+    /// Column whose values each make a line. Fields swept besides make lines of their own too where
+    /// x is a swept field; where x is a figure of the runs, they run along the lines.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub series: Option<String>,
+    /// Heading. Default: made from the columns' names.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub title: Option<String>,
+    /// Whether the horizontal axis is logarithmic.
+    #[serde(default)]
+    pub log_x: bool,
+    /// Whether the vertical axis is logarithmic.
+    #[serde(default)]
+    pub log_y: bool,
+    /// Whether to draw, in place of lines from point to point, the power law that comes nearest to
+    /// a line's points, and to tell its exponent. Both axes are logarithmic then.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub power_law: bool,
+    /// Whether to draw, in place of lines from point to point, lines through those points only that no
+    /// other betters in x and y at once. Both axes are logarithmic then.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub pareto: bool,
+    /// Runs to be marked: for some columns the values that they have, such as
+    /// {"hemisphere.pixels": 30976}.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub mark: BTreeMap<String, Value>,
+    /// What the marked runs are called. Default: "marked".
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mark_name: Option<String>,
+    /// Name of the SVG file, without folder or ending. Default: "<y>-by-<x>".
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
+}
+
+impl Plot {
+    /// Name of the SVG file, without folder or ending.
+    pub fn stem(&self) -> String {
+        let stem = || format!("{}-by-{}", self.y, self.x).replace(' ', "").replace('*', "-x-");
+        self.file.clone().unwrap_or_else(stem)
+    }
+
+    /// Whether the horizontal and the vertical axis are logarithmic.
+    pub fn logarithmic(&self) -> [bool; 2] {
+        let both = self.power_law || self.pareto;
+        [self.log_x || both, self.log_y || both]
+    }
+}
+
+/// A field that is false by default is not told.
+pub fn is_false(value: &bool) -> bool {
+    !value
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+fn is_one(value: &f64) -> bool {
+    *value == 1.0
+}
+
+fn default_machine() -> String {
+    "paragon-xps".to_owned()
+}
+
+fn default_local_environments() -> u32 {
+    56
+}
+
+fn default_seed() -> u64 {
+    1996
+}
+
+fn yes() -> bool {
+    true
+}
+
+/// A field that is as it is by default is not told.
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
+
+/// A field that is true by default is not told either.
+fn is_true(value: &bool) -> bool {
+    *value
+}

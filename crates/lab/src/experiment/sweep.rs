@@ -1,0 +1,179 @@
+//! The rule of sweeps: where one value is expected, a list sweeps it.
+
+use serde_json::Value;
+
+use crate::experiment::fields::UNSWEPT;
+use crate::files::document::Document;
+use crate::files::fault::Fault;
+use crate::files::place::{Place, Step};
+
+/// More runs than anyone means to start.
+const MOST_RUNS: usize = 100_000;
+
+/// A swept field.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// Where its list stands.
+    pub place: Place,
+    /// Its values, in the file's order.
+    pub values: Vec<Value>,
+}
+
+/// One point of a sweep: an experiment without lists.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// Which value of each axis this is.
+    pub index: Vec<usize>,
+    /// The experiment.
+    pub value: Value,
+}
+
+/// A sweep: its axes in the file's order, and the product of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sweep {
+    /// The swept fields, the slowest first.
+    pub axes: Vec<Axis>,
+    /// All points, the last axis fastest.
+    pub points: Vec<Point>,
+}
+
+impl Sweep {
+    /// Finds every list of an experiment file and takes their product.
+    ///
+    /// # Errors
+    /// If a list is empty, holds something twice or anything but single values, or if there are
+    /// too many runs.
+    pub fn of(document: &Document) -> Result<Sweep, Fault> {
+        let mut axes = Vec::new();
+        find_axes(document, &document.value, &Place::default(), &mut axes)?;
+        let runs = axes.iter().try_fold(1_usize, |n, axis| n.checked_mul(axis.values.len()));
+        let Some(runs) = runs.filter(|&runs| runs <= MOST_RUNS) else {
+            let message = format!("the lists make more than {MOST_RUNS} runs; expected fewer");
+            return Err(document.fault(&Place::default(), message));
+        };
+        let points = (0..runs).map(|run| point(&document.value, &axes, run)).collect();
+        Ok(Sweep { axes, points })
+    }
+
+    /// The place in the file of a place in one of its points: at a swept field, the item.
+    pub fn place_in_file(&self, point: &Point, place: Place) -> Place {
+        let swept = self.axes.iter().zip(&point.index).find(|(axis, _)| axis.place == place);
+        match swept {
+            Some((axis, &item)) => axis.place.item(item),
+            None => place,
+        }
+    }
+}
+
+/// Collects the lists under `value`, in the file's order.
+fn find_axes(
+    document: &Document,
+    value: &Value,
+    place: &Place,
+    axes: &mut Vec<Axis>,
+) -> Result<(), Fault> {
+    match value {
+        Value::Object(fields) => {
+            for (name, inner) in fields {
+                if !place.0.is_empty() || !UNSWEPT.contains(&name.as_str()) {
+                    find_axes(document, inner, &place.key(name), axes)?;
+                }
+            }
+        }
+        Value::Array(items) if !place.0.is_empty() => {
+            check_list(document, items, place)?;
+            axes.push(Axis { place: place.clone(), values: items.clone() });
+        }
+        _ => {}
+    }
+    Ok(())
+}
+
+fn check_list(document: &Document, items: &[Value], place: &Place) -> Result<(), Fault> {
+    if items.is_empty() {
+        return Err(document.fault(place, "an empty list; expected at least one value to sweep"));
+    }
+    for (i, item) in items.iter().enumerate() {
+        if item.is_array() || item.is_object() {
+            let message = format!("{item} inside a list; expected a single value to sweep");
+            return Err(document.fault(&place.item(i), message));
+        }
+        if items[..i].contains(item) {
+            let message = format!("{item} stands in the list twice; expected each value once");
+            return Err(document.fault(&place.item(i), message));
+        }
+    }
+    Ok(())
+}
+
+/// The `run`th point: a mixed-radix count over the axes, the last one fastest.
+fn point(file: &Value, axes: &[Axis], run: usize) -> Point {
+    let mut value = file.clone();
+    let mut index = vec![0; axes.len()];
+    let mut rest = run;
+    for (axis, chosen) in axes.iter().zip(&mut index).rev() {
+        *chosen = rest % axis.values.len();
+        rest /= axis.values.len();
+        put(&mut value, &axis.place, &axis.values[*chosen]);
+    }
+    Point { index, value }
+}
+
+/// Puts `item` where a list stands.
+fn put(value: &mut Value, place: &Place, item: &Value) {
+    let target = place.0.iter().fold(value, |value, step| match step {
+        Step::Key(key) => &mut value[key.as_str()],
+        Step::Item(index) => &mut value[*index],
+    });
+    *target = item.clone();
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sweep(text: &str) -> Result<Sweep, String> {
+        let document = Document::parse("x.json".to_owned(), text.to_owned()).unwrap();
+        Sweep::of(&document).map_err(|fault| fault.to_string())
+    }
+
+    #[test]
+    fn runs_are_the_product_in_file_order_the_last_fastest() {
+        let sweep =
+            sweep(r#"{"a": [1, 2], "b": {"c": ["x", "y", "z"], "d": 4}, "plots": [1]}"#).unwrap();
+        let axes: Vec<_> = sweep.axes.iter().map(|axis| axis.place.to_string()).collect();
+        assert_eq!(axes, ["a", "b.c"]);
+        let points: Vec<_> = sweep.points.iter().map(|point| point.value.to_string()).collect();
+        assert_eq!(points.len(), 6);
+        assert_eq!(points[0], r#"{"a":1,"b":{"c":"x","d":4},"plots":[1]}"#);
+        assert_eq!(points[1], r#"{"a":1,"b":{"c":"y","d":4},"plots":[1]}"#);
+        assert_eq!(points[5], r#"{"a":2,"b":{"c":"z","d":4},"plots":[1]}"#);
+        assert_eq!(sweep.points[5].index, [1, 2]);
+    }
+
+    #[test]
+    fn no_list_is_one_run() {
+        let sweep = sweep(r#"{"a": 1}"#).unwrap();
+        assert_eq!((sweep.axes.len(), sweep.points.len()), (0, 1));
+    }
+
+    #[test]
+    fn lists_that_sweep_nothing_are_refused() {
+        for (text, message) in [
+            (r#"{"a": []}"#, "x.json:1: a: an empty list; expected at least one value to sweep"),
+            (
+                "{\n\"a\": {\"b\": [1,\n 2, 1]}}",
+                "x.json:3: a.b[2]: 1 stands in the list twice; expected each value once",
+            ),
+            (
+                r#"{"a": [[1]]}"#,
+                "x.json:1: a[0]: [1] inside a list; expected a single value to sweep",
+            ),
+        ] {
+            assert_eq!(sweep(text).unwrap_err(), message);
+        }
+        let many = format!("[{}]", (0..400).map(|i| i.to_string()).collect::<Vec<_>>().join(","));
+        let text = format!(r#"{{"a": {many}, "b": {many}}}"#);
+        assert!(sweep(&text).unwrap_err().contains("more than 100000 runs"));
+    }
+}

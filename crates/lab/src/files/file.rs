@@ -1,0 +1,67 @@
+//! Files: read with a message that names them, written whole or not at all.
+
+use std::fs;
+use std::io;
+use std::path::Path;
+
+use crate::files::fault::Fault;
+
+/// What a plain name is, for messages.
+pub const PLAIN: &str = "letters, digits, \"-\", \"_\" and \".\", the first one no \".\"";
+
+/// Whether a name is one file in the folder where it is put, and no hidden one.
+pub fn is_plain(name: &str) -> bool {
+    let plain = |c: char| c.is_alphanumeric() || "-_.".contains(c);
+    !name.is_empty() && name.len() <= 100 && !name.starts_with('.') && name.chars().all(plain)
+}
+
+/// A file's bytes.
+///
+/// # Errors
+/// If it cannot be read.
+pub fn read(path: &Path) -> Result<Vec<u8>, Fault> {
+    fs::read(path).map_err(|error| unreadable(path, error))
+}
+
+/// A file's text.
+///
+/// # Errors
+/// If it cannot be read, or is not UTF-8.
+pub fn read_text(path: &Path) -> Result<String, Fault> {
+    fs::read_to_string(path).map_err(|error| unreadable(path, error))
+}
+
+/// The fault of a file that cannot be read.
+pub fn unreadable(path: &Path, error: impl std::fmt::Display) -> Fault {
+    Fault::of_file(path.display(), format!("cannot be read: {error}"))
+}
+
+/// Writes a file under a temporary name beside it and then renames it: a reader, or a run that
+/// was killed, never sees half of it.
+///
+/// # Errors
+/// The system's, with the file's name.
+pub fn write(path: &Path, contents: &[u8]) -> io::Result<()> {
+    let mut temporary = path.as_os_str().to_owned();
+    temporary.push(format!(".{}.tmp", std::process::id()));
+    let written = fs::write(&temporary, contents).and_then(|()| fs::rename(&temporary, path));
+    written.map_err(|error| {
+        let _ = fs::remove_file(&temporary);
+        io::Error::new(error.kind(), format!("{}: cannot be written: {error}", path.display()))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_plain_leads_elsewhere() {
+        for name in ["table1", "speed_up-by-stop.patch_threshold", "größe"] {
+            assert!(is_plain(name), "{name}");
+        }
+        for name in ["", ".", "..", "../x", "/etc/x", "a/b", "a\\b", "C:x", ".partial", "a b"] {
+            assert!(!is_plain(name), "{name}");
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! Where scenes and machines lie: names stand for files in `scenes/` and `machines/`.
+
+use std::path::{Path, PathBuf};
+
+use crate::files::fault::unknown;
+
+/// A kind of files that go by their names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shelf {
+    /// Scene descriptions.
+    Scenes,
+    /// Machine descriptions.
+    Machines,
+    /// Stored references.
+    References,
+}
+
+impl Shelf {
+    fn noun(self) -> &'static str {
+        match self {
+            Shelf::Scenes => "scene",
+            Shelf::Machines => "machine",
+            Shelf::References => "reference",
+        }
+    }
+
+    /// Its folder, beside that of the file that names it.
+    fn folder(self) -> &'static str {
+        match self {
+            Shelf::Scenes => "scenes",
+            Shelf::Machines => "machines",
+            Shelf::References => "results/references",
+        }
+    }
+}
+
+/// A file that a name or a path leads to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Found {
+    /// Where it is.
+    pub path: PathBuf,
+    /// What results call it, the same wherever the project lies: "scenes/office.json", or the
+    /// path as the user wrote it.
+    pub label: String,
+}
+
+/// A file at a path from the folder of the one that names it.
+///
+/// # Errors
+/// If there is none: a message that says so.
+pub fn named_from(folder: &Path, name: &str) -> Result<PathBuf, String> {
+    let path = folder.join(name);
+    match path.is_file() {
+        true => Ok(path),
+        false => Err(format!("\"{name}\": no such file; expected a path from this file")),
+    }
+}
+
+/// Finds what the name or path `name` in a file in `folder` means. A name is looked up in
+/// the shelf's folder beside the file's folder, then in the current folder; a path (with a
+/// slash or an ending) is relative to `folder`, else to the current folder.
+///
+/// # Errors
+/// If there is no such file: a message that lists the names there are.
+pub fn find(folder: &Path, shelf: Shelf, name: &str) -> Result<Found, String> {
+    if name.contains(['/', '\\']) || name.ends_with(".json") || name.ends_with(".obj") {
+        return [folder.join(name), PathBuf::from(name)]
+            .into_iter()
+            .find(|path| path.is_file())
+            .map(|path| Found { path, label: name.to_owned() })
+            .ok_or_else(|| {
+                let from = if folder == Path::new("") { Path::new(".") } else { folder };
+                format!("\"{name}\": no such file; expected a path from {}", from.display())
+            });
+    }
+    let lies_in = shelf.folder();
+    let shelves = [beside(folder).join(lies_in), PathBuf::from(lies_in)];
+    let file = format!("{name}.json");
+    if !name.is_empty()
+        && let Some(path) = shelves.iter().map(|s| s.join(&file)).find(|path| path.is_file())
+    {
+        return Ok(Found { path, label: format!("{lies_in}/{file}") });
+    }
+    let mut known: Vec<String> = shelves.iter().flat_map(|shelf| names(shelf)).collect();
+    known.sort();
+    known.dedup();
+    Err(unknown(shelf.noun(), name, &known))
+}
+
+/// The folder that holds `folder`.
+fn beside(folder: &Path) -> PathBuf {
+    match (folder.file_name(), folder.parent()) {
+        (Some(_), Some(parent)) => parent.to_owned(),
+        _ => folder.join(".."),
+    }
+}
+
+/// Names of the JSON files in a folder.
+fn names(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    entries
+        .map(|entry| entry.path())
+        .filter(|path| path.extension().is_some_and(|ending| ending == "json"))
+        .filter_map(|path| Some(path.file_stem()?.to_str()?.to_owned()))
+        .collect()
+}

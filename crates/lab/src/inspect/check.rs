@@ -1,0 +1,64 @@
+//! What a file is, and whether it is right.
+
+use std::path::Path;
+
+use multicomputer::Trace;
+
+use crate::engine::simulator;
+use crate::files::document::Document;
+use crate::files::fault::Fault;
+use crate::files::file;
+use crate::files::find::Found;
+use crate::open::open_machine::OpenMachine;
+use crate::open::scene::Scene;
+use crate::planning::plan::Plan;
+use crate::planning::preparing::Preparing;
+
+/// Validates an experiment, a machine, a trace, a scene description or an OBJ file, with all that
+/// it names, and says what it is.
+///
+/// # Errors
+/// The first fault met.
+pub fn check(path: &Path) -> Result<String, Fault> {
+    if path.extension().is_some_and(|ending| ending == "obj") {
+        return scene(path, "an OBJ file");
+    }
+    let text = file::read_text(path)?;
+    if text.trim_start().starts_with('[') {
+        let file = path.display().to_string();
+        let trace = Trace::from_json(&text, &file, usize::MAX).map_err(Fault::complete)?;
+        return Ok(format!("a trace, {} messages", trace.messages.len()));
+    }
+    let document = Document::parse(path.display().to_string(), text)?;
+    let has = |key: &str| document.value.get(key).is_some();
+    if has("scene") || has("plots") {
+        let plan = Plan::read(path, &[], &Preparing { finding: false, ..Preparing::default() })?;
+        let (runs, problems) = (plan.runs.len(), plan.problems.len());
+        return Ok(format!("an experiment, {runs} runs of {problems} meshed scenes"));
+    }
+    if has("obj") || has("made") {
+        return scene(path, "a scene");
+    }
+    if has("processor") || has("network") || has("extends") {
+        let found = Found { path: path.to_owned(), label: path.display().to_string() };
+        let machine = OpenMachine::load(&path.display().to_string())?.machine;
+        let (compute, service) = (machine.compute_nodes(), machine.service_nodes());
+        let what = format!("a machine, {compute} compute nodes and {service} service nodes");
+        if machine.processor.cycles.is_empty() {
+            return Ok(what + "; it prices no operation, so that it only replays traces");
+        }
+        simulator::load_machine(&found)?;
+        return Ok(what);
+    }
+    let message = "neither an experiment (\"scene\"), a scene (\"obj\" or \"made\") nor a machine (\"processor\"); \
+                   expected one of them, a trace, or an OBJ file";
+    Err(Fault::of_file(path.display(), message))
+}
+
+fn scene(path: &Path, kind: &str) -> Result<String, Fault> {
+    let found = Found { path: path.to_owned(), label: path.display().to_string() };
+    let scene = Scene::load(&found)?;
+    let warnings = scene.warnings.iter().map(|warning| format!("\n  warning: {warning}"));
+    let polygons = scene.geometry.polygons.len();
+    Ok(format!("{kind}, {polygons} polygons{}", warnings.collect::<String>()))
+}

@@ -1,0 +1,158 @@
+//! A scene with its light, of its own or of a run at any instant, to be drawn.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use desim::Time;
+use multicomputer::Machine;
+use radiosity::{LocalEnvironment, Space};
+use serde_json::{Value, json};
+use virtwall::{KeptShots, Problem};
+
+use crate::engine::simulator::{self, Light};
+use crate::experiment::fields::Experiment;
+use crate::files::document::Document;
+use crate::files::fault::Fault;
+use crate::files::find::{Shelf, find};
+use crate::files::place::Place;
+use crate::open::problem;
+use crate::open::scene::Scene;
+use crate::open::settings::Settings;
+use crate::planning::plan::Plan;
+use crate::planning::preparing::Preparing;
+
+/// A scene, and where its light comes from.
+pub struct Stage {
+    /// What it is, for people.
+    pub title: String,
+    /// The run that lights it; none if the scene is solved by itself.
+    pub run: Option<StagedRun>,
+    problem: Arc<Problem>,
+}
+
+/// A run that can be looked at, as often as one likes: it is made again each time, and its shots are
+/// kept.
+pub struct StagedRun {
+    /// Its row in the results, from 1.
+    pub row: usize,
+    /// Files that say something else than when the results were made.
+    pub changed: Vec<String>,
+    point: Experiment,
+    machine: Machine,
+    kept: Arc<KeptShots>,
+}
+
+/// Rays a shot of a scene that is solved by itself.
+const PIXELS: u32 = 4_096;
+
+/// Which run of an experiment.
+pub struct Which<'a> {
+    /// `path=value` arguments that are laid over the experiment.
+    pub set: &'a [String],
+    /// Its row in the results, from 1; the last one if none is said.
+    pub row: Option<usize>,
+}
+
+impl Stage {
+    /// The scene that a name or a path means; or a run of the experiment that a path means, or of the
+    /// one whose results are in a folder.
+    ///
+    /// # Errors
+    /// What is wrong, and where.
+    pub fn open(what: &str, which: &Which) -> Result<Stage, Fault> {
+        let path = Path::new(what);
+        if path.is_dir() {
+            return Stage::of_results(path, which);
+        }
+        if what.ends_with(".json") && path.is_file() {
+            let document = Document::read(path)?;
+            if document.value.get("scene").is_some() {
+                return Stage::of_plan(
+                    &Plan::read(path, which.set, &Preparing::default())?,
+                    which,
+                    Vec::new(),
+                );
+            }
+        }
+        Stage::of_scene(what)
+    }
+
+    fn of_scene(name: &str) -> Result<Stage, Fault> {
+        let found = find(Path::new("."), Shelf::Scenes, name).map_err(Fault::complete)?;
+        let scene = Scene::load(&found)?;
+        let fault = |(_, message)| Fault::of_file(&found.label, message);
+        let mut whole = Experiment::of_one_environment(name);
+        whole.hemisphere.pixels = PIXELS;
+        let settings = Settings::of(&whole, &scene).map_err(fault)?;
+        let problem = problem::problem(&scene.geometry, &settings).map_err(fault)?;
+        let title = scene.file.and_then(|file| file.title).unwrap_or(found.label);
+        Ok(Stage { title, run: None, problem })
+    }
+
+    /// The run is made again from the experiment that the results say they are of.
+    fn of_results(folder: &Path, which: &Which) -> Result<Stage, Fault> {
+        let path = folder.join("manifest.json");
+        let mut document = Document::read(&path)?;
+        let Some(experiment) = document.value.get_mut("experiment").map(Value::take) else {
+            let message = "no \"experiment\"; expected a manifest that `run` wrote";
+            return Err(Fault::of_file(path.display(), message));
+        };
+        let files = std::mem::replace(&mut document.value, experiment)["files"].take();
+        // What they were compared with, and drawn, is not needed.
+        for (field, nothing) in [("compare_with", Value::Null), ("plots", json!([]))] {
+            document.value[field] = nothing;
+        }
+        let plan = Plan::of(&path, document, which.set, &Preparing::default())?;
+        let same = |label: &str, digest: &str| files[label].as_str() == Some(digest);
+        let changed = plan.files.iter().filter(|file| !same(&file.label, &file.sha256));
+        let changed = changed.map(|file| file.label.clone()).collect();
+        Stage::of_plan(&plan, which, changed)
+    }
+
+    fn of_plan(plan: &Plan, which: &Which, changed: Vec<String>) -> Result<Stage, Fault> {
+        let row = which.row.unwrap_or(plan.runs.len());
+        let Some(run) = row.checked_sub(1).and_then(|index| plan.runs.get(index)) else {
+            let message = format!("{row}; expected a row of runs.csv, 1 to {}", plan.runs.len());
+            return Err(Fault {
+                file: "--run".to_owned(),
+                line: None,
+                place: Place::default(),
+                message,
+            });
+        };
+        let point = run.point.clone();
+        let title = format!("{}, {} on {} processors", plan.title, point.scene, point.processors);
+        let problem = Arc::clone(&plan.problems[run.problem].problem);
+        let machine = plan.machines[run.machine].machine.clone();
+        let kept = Arc::new(KeptShots::new(crate::host::host_memory::half_of_free_memory()));
+        let run = StagedRun { row, changed, point, machine, kept };
+        Ok(Stage { title, run: Some(run), problem })
+    }
+
+    /// The scene in its grid.
+    pub fn space(&self) -> &Space {
+        &self.problem.space
+    }
+
+    /// Its environments, by number.
+    pub fn environments(&self) -> &[LocalEnvironment] {
+        &self.problem.environments
+    }
+
+    /// The light when less than this part of it is unshot, or after 5,000 shots; and the part that
+    /// is. The run's, if there is one, has no part in it.
+    pub fn solved(&self, unshot: f64) -> (Light, f64) {
+        simulator::solved(&self.problem, unshot)
+    }
+
+    /// The light of the run at each of these times, in rising order; after its end there is no other.
+    /// And when it ends.
+    ///
+    /// # Errors
+    /// Why the run did not end, or that there is none.
+    pub fn light_at(&self, times: &[Time]) -> Result<(Vec<Light>, Time), String> {
+        let Some(staged) = &self.run else { return Err("no run lights it".to_owned()) };
+        let run = simulator::run(&self.problem, &staged.point, &staged.kept, Arc::new(|| ()));
+        simulator::light_at(&run, &staged.point, &staged.machine, times)
+    }
+}

@@ -1,0 +1,32 @@
+//! A machine outside any experiment: to be looked at and measured.
+
+use std::path::Path;
+
+use multicomputer::Machine;
+
+use crate::files::fault::Fault;
+use crate::files::find::{Shelf, find};
+use crate::open::machine_file::MachineFile;
+
+/// A machine, and its file.
+pub struct OpenMachine {
+    /// The machine.
+    pub machine: Machine,
+    /// What results call its file.
+    pub label: String,
+    /// What its file says, with what it extends.
+    pub text: String,
+}
+
+impl OpenMachine {
+    /// Reads the machine that a name, or a path to a machine file, means. Unlike an experiment's, it
+    /// need not price any operation.
+    ///
+    /// # Errors
+    /// What is wrong, and where.
+    pub fn load(name: &str) -> Result<OpenMachine, Fault> {
+        let found = find(Path::new("."), Shelf::Machines, name).map_err(Fault::complete)?;
+        let MachineFile { machine, text, .. } = MachineFile::load(&found)?;
+        Ok(OpenMachine { machine, label: found.label, text })
+    }
+}

@@ -1,0 +1,116 @@
+//! How a scene is meshed, cut and lit: the experiment's word first, then the scene file's.
+
+use serde::Serialize;
+
+use crate::experiment::fields::{Experiment, is_false};
+use crate::experiment::hemisphere::Directions;
+use crate::experiment::refine::RefineFields;
+use crate::files::fault::WrongField;
+use crate::files::quantity::Triple;
+use crate::open::cut::{automatic_cells, automatic_cut};
+use crate::open::scene::Scene;
+use crate::open::wall_mesh::WallMesh;
+
+/// A patch of a bare OBJ file is at most this share of the scene's diagonal long.
+const BARE_PATCHES: f64 = 1.0 / 50.0;
+
+/// More patches than a host's memory holds with ease.
+const MOST_PATCHES: f64 = 2e7;
+
+/// How a scene is meshed, cut and lit: all that decides what a shot does.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Settings {
+    /// The scene, as the experiment names it.
+    pub scene: String,
+    /// Local environments along x, y and z.
+    pub cut: Triple,
+    /// Cells along x, y and z.
+    pub cells: Triple,
+    /// Longest edge of a patch, metres.
+    #[serde(rename = "patch_size_m")]
+    pub patch_size: f64,
+    /// Longest edge of a patch that emits light, metres.
+    #[serde(rename = "emitter_patch_size_m")]
+    pub emitter_patch_size: f64,
+    /// Where patches are smaller.
+    #[serde(skip_serializing_if = "RefineFields::is_none")]
+    pub refine: RefineFields,
+    /// How rays are spread over the hemisphere.
+    pub directions: Directions,
+    /// Rays a source.
+    pub pixels: u32,
+    /// Rays of the dimmest sources, if fewer.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub least_pixels: Option<u32>,
+    /// Whether each source turns them.
+    pub rotated: bool,
+    /// Virtual walls in place of masks.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub virtual_walls: Option<WallMesh>,
+    /// Bits of an integer of a mask, if other than usual.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mask_bits: Option<u32>,
+    /// Whether they lie by its place.
+    #[serde(skip_serializing_if = "is_false")]
+    pub by_place: bool,
+}
+
+impl Settings {
+    /// The experiment's own settings, else the scene file's, else automatic ones.
+    ///
+    /// # Errors
+    /// The field at fault, and what is wrong.
+    pub fn of(point: &Experiment, scene: &Scene) -> Result<Settings, WrongField> {
+        let (cells, cut) = cells_and_cut(point, scene)?;
+        let file = scene.file.as_ref();
+        let extents = scene.geometry.bounds.size().to_array();
+        let diagonal = extents.iter().map(|extent| extent * extent).sum::<f64>().sqrt();
+        let own = point.patch_size.as_ref().or(file.map(|file| &file.patch_size));
+        let patch_size = own.map_or(diagonal * BARE_PATCHES, |size| size.value());
+        let of_file = file.and_then(|file| file.emitter_patch_size.as_ref());
+        let emitters = point.emitter_patch_size.as_ref().or(of_file);
+        let patches = scene.geometry.area() / (patch_size * patch_size);
+        if patches > MOST_PATCHES {
+            let message = format!("{patch_size} m makes some {patches:.0} patches");
+            return Err(("patch_size", format!("{message}; expected at most {MOST_PATCHES}")));
+        }
+        Ok(Settings {
+            scene: point.scene.clone(),
+            cut,
+            cells,
+            patch_size,
+            emitter_patch_size: emitters.map_or(patch_size, |size| size.value()),
+            refine: point.refine,
+            directions: point.hemisphere.directions,
+            pixels: point.hemisphere.pixels,
+            least_pixels: point.hemisphere.least_pixels,
+            rotated: point.hemisphere.rotated,
+            virtual_walls: WallMesh::of(point)?,
+            mask_bits: point.mask_bits,
+            by_place: point.hemisphere.by_place,
+        })
+    }
+}
+
+fn cells_and_cut(point: &Experiment, scene: &Scene) -> Result<(Triple, Triple), WrongField> {
+    let (file, extents) = (scene.file.as_ref(), scene.geometry.bounds.size().to_array());
+    let environments = point.local_environments;
+    if let Some(cut) = point.cut.filter(|cut| cut.product() != u64::from(environments)) {
+        let message = format!("\"{cut}\" makes {} local environments", cut.product());
+        return Err(("cut", format!("{message}; expected {environments}")));
+    }
+    let chosen = point.cut.or(file.and_then(|file| file.cut(environments)));
+    let fixed = point.cells.or(file.and_then(|file| file.cells));
+    let Some(cut) = chosen.or_else(|| automatic_cut(extents, environments, fixed)) else {
+        let cells = fixed.map_or(String::new(), |cells| format!(" of {cells}"));
+        let message = format!("{environments} boxes do not fit the grid of cells{cells}");
+        return Err(("local_environments", message + "; expected a cell or more in each"));
+    };
+    let polygons = scene.geometry.polygons.len();
+    let cells = fixed.unwrap_or_else(|| automatic_cells(extents, polygons, Some(cut)));
+    if (0..3).any(|axis| cut.0[axis] > cells.0[axis]) {
+        let message = format!("\"{cut}\" leaves local environments without a cell of {cells}");
+        return Err(("cut", message + "; expected at most as many as cells along each axis"));
+    }
+    Ok((cells, cut))
+}

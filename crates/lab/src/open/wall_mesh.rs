@@ -1,0 +1,38 @@
+//! A mesh of virtual walls.
+
+use serde::Serialize;
+
+use crate::experiment::fields::Experiment;
+use crate::experiment::interfaces::VirtualWalls;
+use crate::files::fault::WrongField;
+use crate::files::quantity::Pair;
+
+/// A mesh of virtual walls: what of it decides what a shot does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct WallMesh {
+    /// Wall patches along the two axes of an interface.
+    pub patches: Pair,
+    /// Bins along each side of the square of directions.
+    pub directions: u32,
+    /// Rays a wall patch.
+    pub rays: u32,
+}
+
+impl WallMesh {
+    /// The mesh of an experiment's virtual walls, if it has any.
+    ///
+    /// # Errors
+    /// A threshold that would let ever less energy go on for ever.
+    pub fn of(point: &Experiment) -> Result<Option<WallMesh>, WrongField> {
+        if point.interfaces.are_masks() {
+            return Ok(None);
+        }
+        let VirtualWalls { patches, directions, rays, threshold } = &point.virtual_walls;
+        if threshold.value() == 0.0 {
+            let message = "0 %; expected more: virtual walls hand on ever less, for ever";
+            return Err(("virtual_walls.threshold", message.to_owned()));
+        }
+        let rays = rays.unwrap_or(point.hemisphere.pixels);
+        Ok(Some(WallMesh { patches: *patches, directions: *directions, rays }))
+    }
+}

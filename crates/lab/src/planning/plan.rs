@@ -1,0 +1,150 @@
+//! An experiment file read, expanded and validated, once, at the door: nothing in a plan can be
+//! refused later.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use multicomputer::Machine;
+use serde_json::Value;
+use virtwall::Problem;
+
+use crate::accuracy::answer::{Answer, DenseAnswers, Stored};
+use crate::accuracy::tuned::Tuned;
+use crate::engine::message_layer;
+use crate::engine::network;
+use crate::experiment::fields::{Experiment, Plot};
+use crate::experiment::sweep::Axis;
+use crate::files::digest::FileDigest;
+use crate::files::place::Place;
+use crate::open::settings::Settings;
+use crate::table::columns::{self, Also};
+use crate::table::comparison::Comparison;
+
+/// All that an experiment will do.
+pub struct Plan {
+    /// The experiment file's name without its ending: results go to `results/<name>`.
+    pub name: String,
+    /// The experiment's title.
+    pub title: String,
+    /// The experiment file with its arguments and every default filled in.
+    pub resolved: Value,
+    /// The swept fields.
+    pub axes: Vec<Axis>,
+    /// The runs, in the order of the results.
+    pub runs: Vec<Run>,
+    /// Scenes, meshed and cut.
+    pub problems: Vec<Prepared>,
+    /// Machines.
+    pub machines: Vec<Equipment>,
+    /// Stored references.
+    pub references: Vec<Stored>,
+    /// Published figures.
+    pub comparison: Comparison,
+    /// What to draw.
+    pub plots: Vec<Plot>,
+    /// What was mended in the scenes.
+    pub warnings: Vec<String>,
+    /// All files read, each once, by label.
+    pub files: Vec<FileDigest>,
+}
+
+impl Plan {
+    /// The settings that were found, a sentence each.
+    pub fn settings_found(&self) -> Vec<String> {
+        let found = self.runs.iter().filter_map(|run| Some(run.tuned?.sentence(&run.point.scene)));
+        let mut sentences: Vec<String> = found.collect();
+        sentences.dedup();
+        sentences
+    }
+
+    /// What tells a run from the others: its scene, its processors, and whatever else is swept.
+    pub fn label(&self, run: &Run) -> String {
+        let plural = if run.point.processors == 1 { "" } else { "s" };
+        let mut label = format!("{}, {} processor{plural}", run.point.scene, run.point.processors);
+        for (axis, &item) in self.axes.iter().zip(&run.index) {
+            let field = axis.place.to_string();
+            if !["scene", "processors"].contains(&field.as_str()) {
+                label += &format!(", {field} {}", columns::cell(&axis.values[item]));
+            }
+        }
+        label
+    }
+
+    /// What its results tell of besides what all do.
+    pub fn also(&self) -> Also {
+        let machine = |run: &Run| &self.machines[run.machine].machine;
+        Also {
+            network: self.runs.iter().any(|run| network::tells(machine(run), run.point.network)),
+            memory: self.runs.iter().any(|run| machine(run).node_memory.is_some()),
+            media: self.problems.iter().any(|p| !p.problem.space.scene.media.is_empty()),
+            refine: self.problems.iter().any(|p| p.problem.refinement.is_some()),
+            message_layer: self.runs.iter().any(|run| message_layer::tells(machine(run))),
+            accuracy: self
+                .runs
+                .iter()
+                .any(|run| run.tuned.is_some() || run.point.accuracy.is_some()),
+            causes: self.runs.iter().any(|run| run.point.error_causes),
+            caches: self.runs.iter().any(|run| !machine(run).processor.caches.is_empty()),
+            translations: self.runs.iter().any(|run| machine(run).processor.translations.is_some()),
+            errors: self.runs.iter().any(|run| run.point.reference.is_some()),
+            display: self.runs.iter().any(|run| machine(run).display.is_some()),
+            start_up: self.runs.iter().any(|run| machine(run).start_up.is_some()),
+        }
+    }
+
+    /// What a run is held against, if anything: a stored answer, or one of `dense`.
+    pub fn answer(&self, run: &Run, dense: &DenseAnswers) -> Option<Arc<Answer>> {
+        run.point.reference.as_ref()?;
+        Some(match run.stored {
+            Some(stored) => Arc::clone(&self.references[stored].answer),
+            None => dense.of(&self.problems[run.problem].problem),
+        })
+    }
+}
+
+/// One run.
+pub struct Run {
+    /// Which value of each axis it has.
+    pub index: Vec<usize>,
+    /// Its settings as the file gives them.
+    pub point: Experiment,
+    /// Index into [`Plan::problems`].
+    pub problem: usize,
+    /// Index into [`Plan::machines`].
+    pub machine: usize,
+    /// Index into [`Plan::references`]; none where a run has no reference, or a dense one.
+    pub stored: Option<usize>,
+    /// How its knobs were found, where they were.
+    pub tuned: Option<Tuned>,
+}
+
+/// A scene, meshed and cut.
+pub struct Prepared {
+    /// How.
+    pub settings: Settings,
+    /// The problem.
+    pub problem: Arc<Problem>,
+    /// The scene's files.
+    pub digests: Vec<FileDigest>,
+    /// Bytes of its geometry and materials.
+    pub scene_bytes: u64,
+    /// CPU seconds that reading, cleaning, cutting and meshing took.
+    pub set_up_s: f64,
+}
+
+/// A machine and the file it was read from.
+pub struct Equipment {
+    /// The machine.
+    pub machine: Machine,
+    /// Where its file is.
+    pub path: PathBuf,
+    /// Its file, and those that it extends.
+    pub digests: Vec<FileDigest>,
+}
+
+/// Which value a run has of each swept field but `field`.
+pub fn all_else(plan: &Plan, run: &Run, field: &str) -> Vec<usize> {
+    let field = Place::of(field);
+    let fields = plan.axes.iter().zip(&run.index).filter(|(axis, _)| axis.place != field);
+    fields.map(|(_, &item)| item).collect()
+}

@@ -1,0 +1,385 @@
+//! How a plan is made from an experiment file: every check there is, and nothing loaded twice.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use crate::accuracy::answer::{self, Stored};
+use crate::accuracy::pilot::{Host, Pilots};
+use crate::accuracy::tuned::Tuned;
+use crate::accuracy::tuner::tune;
+use crate::engine::simulator;
+use crate::experiment::fields::Experiment;
+use crate::experiment::sweep::{Point, Sweep};
+use crate::files::digest::FileDigest;
+use crate::files::document::Document;
+use crate::files::fault::Fault;
+use crate::files::file::{PLAIN, is_plain};
+use crate::files::find::{Found, Shelf, find, named_from};
+use crate::files::json;
+use crate::files::place::Place;
+use crate::host::host_clock::HostClock;
+use crate::host::program::program;
+use crate::open::machine_file::MachineFile;
+use crate::open::problem;
+use crate::open::scene::Scene;
+use crate::open::settings::Settings;
+use crate::planning::plan::{Equipment, Plan, Prepared, Run};
+use crate::planning::plots::check_plots;
+use crate::planning::preparing::Preparing;
+use crate::planning::suits::suits;
+use crate::table::cheapest::{least_time, read_sweep};
+use crate::table::comparison::Comparison;
+use crate::table::runs_csv::Table;
+
+impl Plan {
+    /// Reads an experiment file, lays `--set path=value` arguments over it, and validates all of
+    /// it, the scenes and machines that it names included, and finds the knobs that it leaves open.
+    ///
+    /// # Errors
+    /// The first fault met. Nothing was written.
+    pub fn read(path: &Path, arguments: &[String], preparing: &Preparing) -> Result<Plan, Fault> {
+        Plan::of(path, Document::read(path)?, arguments, preparing)
+    }
+
+    /// Reads an experiment from a document, as if it were the file at `path`.
+    ///
+    /// # Errors
+    /// The first fault met. Nothing was written.
+    pub(crate) fn of(
+        path: &Path,
+        mut document: Document,
+        arguments: &[String],
+        preparing: &Preparing,
+    ) -> Result<Plan, Fault> {
+        for argument in arguments {
+            document.set(argument)?;
+        }
+        document.refuse_unknown_keys::<Experiment>()?;
+        let planner = Planner {
+            path,
+            folder: path.parent().unwrap_or(Path::new("")),
+            sweep: &Sweep::of(&document)?,
+            document: &document,
+            preparing,
+            scenes: Vec::new(),
+            machines: Vec::new(),
+            references: BTreeMap::new(),
+            stored: Vec::new(),
+            sweeps: BTreeMap::new(),
+        };
+        planner.plan()
+    }
+}
+
+/// What planning has read so far.
+struct Planner<'a> {
+    path: &'a Path,
+    folder: &'a Path,
+    document: &'a Document,
+    sweep: &'a Sweep,
+    preparing: &'a Preparing<'a>,
+    scenes: Vec<Found>,
+    machines: Vec<Equipment>,
+    /// Which of those stored, by file and scene.
+    references: BTreeMap<(PathBuf, usize), usize>,
+    stored: Vec<Stored>,
+    /// Sweeps that accuracies are held against, by name.
+    sweeps: BTreeMap<String, (Table, FileDigest)>,
+}
+
+/// A point of the sweep whose scene is yet to be read.
+struct Draft<'a> {
+    point: &'a Point,
+    typed: Experiment,
+    /// Index into [`Planner::scenes`].
+    scene: usize,
+    /// Index into [`Planner::machines`].
+    machine: usize,
+    /// How its knobs were found, where the experiment asks for an accuracy.
+    tuned: Option<Tuned>,
+}
+
+/// A scene that was read, and the CPU seconds that it took.
+type Loaded = (Scene, f64);
+
+impl Planner<'_> {
+    /// Makes the plan.
+    fn plan(mut self) -> Result<Plan, Fault> {
+        let name = self.name()?;
+        let drafts = self.sweep.points.iter().map(|point| self.draft(point));
+        let mut drafts = drafts.collect::<Result<Vec<Draft>, Fault>>()?;
+        let scenes = self.load()?;
+        if self.preparing.finding {
+            self.tune(&mut drafts, &scenes)?;
+        }
+        let (problems, problem_of) = self.problems(&drafts, &scenes)?;
+        let runs = drafts.into_iter().zip(problem_of).map(|(draft, problem)| {
+            let stored = self.reference(&draft, &scenes[draft.scene].0, &problems[problem])?;
+            let Draft { point, typed, machine, tuned, .. } = draft;
+            Ok(Run { index: point.index.clone(), point: typed, problem, machine, stored, tuned })
+        });
+        let runs = runs.collect::<Result<Vec<Run>, Fault>>()?;
+        let first = &runs[0].point;
+        let (title, plots) = (first.title.clone(), first.plots.clone());
+        let resolved = self.resolved(first);
+        let (comparison, compared) = self.comparison(first)?;
+
+        let mut files: Vec<FileDigest> =
+            scenes.iter().flat_map(|(scene, _)| scene.digests.clone()).collect();
+        files.extend(self.machines.iter().flat_map(|machine| machine.digests.clone()));
+        files.extend(compared);
+        files.extend(self.sweeps.values().map(|(_, digest)| digest.clone()));
+        files.extend(self.stored.iter().map(|stored| stored.digest.clone()));
+        files.sort();
+        files.dedup();
+        let warnings = scenes.iter().flat_map(|(scene, _)| scene.warnings.clone()).collect();
+        let plan = Plan {
+            name,
+            title,
+            resolved,
+            axes: self.sweep.axes.clone(),
+            runs,
+            problems,
+            machines: self.machines,
+            references: self.stored,
+            comparison,
+            plots,
+            warnings,
+            files,
+        };
+        check_plots(&plan, self.document)?;
+        Ok(plan)
+    }
+
+    /// The name that the results go by: a plain one, which leads nowhere else.
+    fn name(&self) -> Result<String, Fault> {
+        let stem = self.path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
+        if is_plain(stem) {
+            return Ok(stem.to_owned());
+        }
+        let message = format!("the name \"{stem}\" names its results; expected {PLAIN}");
+        Err(Fault::of_file(&self.document.file, message))
+    }
+
+    /// Reads and checks one point of the sweep, but for its scene.
+    fn draft<'p>(&mut self, point: &'p Point) -> Result<Draft<'p>, Fault> {
+        let locate = |place| self.sweep.place_in_file(point, place);
+        let typed: Experiment = self.document.typed(&point.value, locate)?;
+        let machine = self.machine(point, &typed)?;
+        suits(&typed, &self.machines[machine].machine)
+            .map_err(|(field, message)| self.fault(point, field, message))?;
+        let scene = self.scene(point, &typed)?;
+        self.accuracy(point, &typed)?;
+        Ok(Draft { point, typed, scene, machine, tuned: None })
+    }
+
+    /// The stored reference of a draft, read once; none if it has none, or a dense one.
+    fn reference(
+        &mut self,
+        draft: &Draft,
+        scene: &Scene,
+        problem: &Prepared,
+    ) -> Result<Option<usize>, Fault> {
+        let Experiment { reference, error_causes, .. } = &draft.typed;
+        let Some(name) = reference.as_deref() else {
+            let message = "true without a \"reference\"; expected one".to_owned();
+            let fault = || self.fault(draft.point, "error_causes", message);
+            return if *error_causes { Err(fault()) } else { Ok(None) };
+        };
+        let refuse = |message| self.fault(draft.point, "reference", message);
+        if !scene.geometry.media.is_empty() {
+            let message = format!("\"{name}\" knows no \"media\"; expected a scene without them");
+            return Err(refuse(message));
+        }
+        let (patches, most) = (problem.problem.patches(), answer::MOST_DENSE);
+        if (name == answer::DENSE || *error_causes) && patches > most {
+            let message = format!("a dense solution of {patches} patches; expected at most {most}");
+            return Err(refuse(message));
+        }
+        if name == answer::DENSE {
+            return Ok(None);
+        }
+        let stem = || self.scenes[draft.scene].path.file_stem().unwrap_or_default();
+        let name =
+            if name == answer::STORED { stem().to_string_lossy() } else { Cow::Borrowed(name) };
+        let found = find(self.folder, Shelf::References, &name).map_err(refuse)?;
+        let key = (found.path.clone(), draft.scene);
+        if let Some(&known) = self.references.get(&key) {
+            return Ok(Some(known));
+        }
+        let stored = Stored::read(&found, &scene.geometry)?;
+        self.stored.push(stored);
+        self.references.insert(key, self.stored.len() - 1);
+        Ok(Some(self.stored.len() - 1))
+    }
+
+    /// A fault of a field at one point of the sweep.
+    fn fault(&self, point: &Point, field: &str, message: String) -> Fault {
+        self.document.fault(&self.sweep.place_in_file(point, Place::of(field)), message)
+    }
+
+    /// The machine of this point, loaded once.
+    fn machine(&mut self, point: &Point, typed: &Experiment) -> Result<usize, Fault> {
+        let found = find(self.folder, Shelf::Machines, &typed.machine)
+            .map_err(|message| self.fault(point, "machine", message))?;
+        if let Some(loaded) = self.machines.iter().position(|m| m.path == found.path) {
+            return Ok(loaded);
+        }
+        let MachineFile { machine, digests, .. } = simulator::load_machine(&found)?;
+        self.machines.push(Equipment { machine, path: found.path, digests });
+        Ok(self.machines.len() - 1)
+    }
+
+    /// Where the scene of this point is.
+    fn scene(&mut self, point: &Point, typed: &Experiment) -> Result<usize, Fault> {
+        let found = find(self.folder, Shelf::Scenes, &typed.scene)
+            .map_err(|message| self.fault(point, "scene", message))?;
+        if let Some(known) = self.scenes.iter().position(|scene| scene.path == found.path) {
+            return Ok(known);
+        }
+        self.scenes.push(found);
+        Ok(self.scenes.len() - 1)
+    }
+
+    /// Checks the accuracy that a point asks for, and reads what it is held against, once.
+    fn accuracy(&mut self, point: &Point, typed: &Experiment) -> Result<(), Fault> {
+        let Some(accuracy) = &typed.accuracy else { return Ok(()) };
+        let checked = accuracy.check(&point.value);
+        checked.map_err(|(field, message)| self.fault(point, field, message))?;
+        let Some(name) = accuracy.sweep.as_ref() else { return Ok(()) };
+        if !self.sweeps.contains_key(name) {
+            let read = read_sweep(self.folder, name)
+                .map_err(|message| self.fault(point, "accuracy.sweep", message))?;
+            self.sweeps.insert(name.clone(), read);
+        }
+        Ok(())
+    }
+
+    /// Finds the knobs of the points that ask for an accuracy; those that differ in their processors
+    /// alone share them.
+    fn tune(&self, drafts: &mut [Draft], scenes: &[Loaded]) -> Result<(), Fault> {
+        let mut asking: Vec<(Experiment, usize)> = Vec::new();
+        let mut asker = Vec::new();
+        for (number, draft) in drafts.iter().enumerate().filter(|(_, d)| d.typed.accuracy.is_some())
+        {
+            let alike = Experiment { processors: 1, ..draft.typed.clone() };
+            let text = |experiment: &Experiment| serde_json::to_string(experiment).ok();
+            let known = asking.iter().position(|(other, _)| text(other) == text(&alike));
+            asker.push((number, known.unwrap_or(asking.len())));
+            if known.is_none() {
+                asking.push((alike, number));
+            }
+        }
+        let threads = self.preparing.threads.div_ceil(asking.len().max(1));
+        let tune = |asked: usize| {
+            let (experiment, number) = &asking[asked];
+            self.tuned(experiment, &drafts[*number], &scenes[drafts[*number].scene].0, threads)
+        };
+        let found = parallel::map(asking.len(), self.preparing.threads, tune);
+        let found = found.into_iter().collect::<Result<Vec<_>, Fault>>()?;
+        for (number, asked) in asker {
+            let (point, tuned) = &found[asked];
+            let draft = &mut drafts[number];
+            draft.typed = Experiment { processors: draft.typed.processors, ..point.clone() };
+            draft.tuned = Some(*tuned);
+        }
+        Ok(())
+    }
+
+    fn tuned(
+        &self,
+        experiment: &Experiment,
+        draft: &Draft,
+        scene: &Scene,
+        threads: usize,
+    ) -> Result<(Experiment, Tuned), Fault> {
+        let refuse = |(field, message)| self.fault(draft.point, field, message);
+        let settings = Settings::of(experiment, scene).map_err(refuse)?;
+        let machine = &self.machines[draft.machine].machine;
+        let accuracy = experiment.accuracy.as_ref();
+        let target = accuracy.map_or(1.0, |accuracy| accuracy.relative_l2);
+        let sweep = accuracy.and_then(|accuracy| self.sweeps.get(accuracy.sweep.as_ref()?));
+        let sweep_time_s =
+            sweep.and_then(|(table, _)| least_time(table, &experiment.scene, target));
+        let watch = |runs| (self.preparing.on_pilot)(&experiment.scene, target, runs);
+        let memory = self.preparing.memory / self.preparing.threads;
+        let host = Host { memory, threads, watch: &watch };
+        let pilots = Pilots::new(experiment, &settings, &scene.geometry, machine, host);
+        let pilots = pilots.map_err(refuse)?;
+        let tuned =
+            tune(&pilots, target).map_err(|message| refuse(("accuracy.relative_l2", message)))?;
+        Ok((
+            pilots
+                .point(&tuned.knobs)
+                .map_err(|message| refuse(("accuracy.relative_l2", message)))?,
+            Tuned { sweep_time_s, ..tuned },
+        ))
+    }
+
+    /// Reads all scenes, each once.
+    fn load(&self) -> Result<Vec<Loaded>, Fault> {
+        let load = |scene: usize| {
+            let clock = HostClock::start();
+            Ok((Scene::load(&self.scenes[scene])?, clock.cpu_seconds()))
+        };
+        let threads = self.preparing.threads;
+        std::thread::scope(|scope| {
+            // Runs will be saved under the name of this program: meanwhile it reads itself.
+            if threads > 1 {
+                scope.spawn(program);
+            }
+            parallel::map(self.scenes.len(), threads, load).into_iter().collect()
+        })
+    }
+
+    /// The scenes, meshed and cut as the points say, each such problem once, and which is whose.
+    fn problems(
+        &self,
+        drafts: &[Draft],
+        scenes: &[Loaded],
+    ) -> Result<(Vec<Prepared>, Vec<usize>), Fault> {
+        let mut wanted: Vec<(Settings, &Draft)> = Vec::new();
+        let mut problem_of = Vec::new();
+        for draft in drafts {
+            let settings = Settings::of(&draft.typed, &scenes[draft.scene].0)
+                .map_err(|(field, message)| self.fault(draft.point, field, message))?;
+            let known = wanted.iter().position(|(other, _)| *other == settings);
+            problem_of.push(known.unwrap_or(wanted.len()));
+            if known.is_none() {
+                wanted.push((settings, draft));
+            }
+        }
+        let prepare = |number: usize| {
+            let (settings, draft) = &wanted[number];
+            let (scene, loading_s) = &scenes[draft.scene];
+            let threads = self.preparing.threads;
+            let (problem, cpu_s) = problem::problem_on(&scene.geometry, settings, threads)
+                .map_err(|(field, message)| self.fault(draft.point, field, message))?;
+            let set_up_s = loading_s + cpu_s;
+            let (settings, digests) = (settings.clone(), scene.digests.clone());
+            Ok(Prepared { settings, problem, digests, scene_bytes: scene.bytes, set_up_s })
+        };
+        let problems = parallel::map(wanted.len(), self.preparing.threads, prepare);
+        Ok((problems.into_iter().collect::<Result<_, Fault>>()?, problem_of))
+    }
+
+    /// The experiment file with every default filled in: a file that says the same.
+    fn resolved(&self, first: &Experiment) -> Value {
+        let mut resolved = self.document.value.clone();
+        json::fill(&mut resolved, serde_json::to_value(first).unwrap_or_default());
+        resolved
+    }
+
+    /// The published figures, if there are any, and the file they are from.
+    fn comparison(&self, first: &Experiment) -> Result<(Comparison, Option<FileDigest>), Fault> {
+        let Some(name) = &first.compare_with else {
+            return Ok((Comparison::default(), None));
+        };
+        let path = named_from(self.folder, name)
+            .map_err(|message| self.document.fault(&Place::of("compare_with"), message))?;
+        Ok((Comparison::read(&path)?, Some(FileDigest::of(&path, name)?)))
+    }
+}

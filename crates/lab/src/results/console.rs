@@ -1,0 +1,97 @@
+//! The results in the manner of the paper's Table 1, and as text for a terminal.
+
+use std::collections::BTreeMap;
+
+use crate::results::summary::{Summary, ratio};
+use crate::table::runs_csv::Table;
+
+/// One line of the table: a run beside what was published of it.
+pub struct Line {
+    /// The scene, and the values of what is swept besides: what the lines of a group share.
+    pub group: String,
+    /// Processors.
+    pub processors: String,
+    /// Simulated seconds and speed-up.
+    pub simulated: [String; 2],
+    /// Published seconds and speed-up.
+    pub paper: [String; 2],
+    /// Simulated over published speed-up; on one processor, where a speed-up is 1 by its meaning,
+    /// "t" and simulated over published time.
+    pub ratio: String,
+    /// How the run ended, if not as it should.
+    pub note: String,
+}
+
+/// The results, line by line, those of a group together, in the order of the groups' first lines.
+pub fn lines(table: &Table, sweeps: &[String]) -> Vec<Line> {
+    let mut lines: Vec<Line> = table.rows.iter().map(|row| line(table, row, sweeps)).collect();
+    let mut first = BTreeMap::new();
+    for (i, line) in lines.iter().enumerate() {
+        first.entry(line.group.clone()).or_insert(i);
+    }
+    lines.sort_by_key(|line| first[&line.group]);
+    lines
+}
+
+fn line(table: &Table, row: &[String], sweeps: &[String]) -> Line {
+    let number =
+        |column| table.number(row, column).map_or(String::new(), |number| format!("{number:.2}"));
+    let processors = table.cell(row, "processors");
+    let compared = |ours, paper| ratio(table, row, ours, paper);
+    let ratio = match processors {
+        "1" => compared("time_s", "paper_time_s").map(|ratio| format!("t {ratio:.2}")),
+        _ => compared("speed_up", "paper_speed_up").map(|ratio| format!("{ratio:.2}")),
+    };
+    let others = sweeps.iter().filter(|name| *name != "scene" && *name != "processors");
+    let others = others.map(|name| format!("{name} {}", table.cell(row, name)));
+    let scene = table.cell(row, "scene").to_owned();
+    Line {
+        group: std::iter::once(scene).chain(others).collect::<Vec<_>>().join(", "),
+        processors: processors.to_owned(),
+        simulated: ["time_s", "speed_up"].map(number),
+        paper: ["paper_time_s", "paper_speed_up"].map(number),
+        ratio: ratio.unwrap_or_default(),
+        note: match table.cell(row, "ending") {
+            "failed" => format!("failed: {}", table.cell(row, "failure")),
+            "too_early" => "ended too early".to_owned(),
+            _ => String::new(),
+        },
+    }
+}
+
+/// The results as text: lines under the name of their group, and the summary.
+pub fn table_text(table: &Table, sweeps: &[String]) -> String {
+    let lines = lines(table, sweeps);
+    let compared = lines.iter().any(|line| !line.paper.concat().is_empty());
+    let mut text = String::new();
+    let mut add = |line: String| {
+        text += line.trim_end();
+        text += "\n";
+    };
+    if compared {
+        add(format!("{:>9}{:>22}{:>24}", "", "simulated", "paper"));
+        add(columns("procs", ["time s", "speed-up"], ["time s", "speed-up"], "ratio"));
+    } else {
+        add(columns("procs", ["time s", "speed-up"], ["", ""], ""));
+    }
+    let mut group = None;
+    for line in &lines {
+        if group != Some(&line.group) {
+            add(line.group.clone());
+            group = Some(&line.group);
+        }
+        let [simulated, paper] =
+            [&line.simulated, &line.paper].map(|cells| cells.each_ref().map(String::as_str));
+        let cells = columns(&line.processors, simulated, paper, &line.ratio);
+        add(format!("{cells}  {}", line.note));
+    }
+    for sentence in Summary::of(table).lines() {
+        add(format!("\n{sentence}"));
+    }
+    text
+}
+
+fn columns(processors: &str, simulated: [&str; 2], paper: [&str; 2], ratio: &str) -> String {
+    let ([time, speed_up], [paper_time, paper_speed_up]) = (simulated, paper);
+    format!("{processors:>9}{time:>12}{speed_up:>10}{paper_time:>14}{paper_speed_up:>10}{ratio:>9}")
+}

@@ -1,0 +1,212 @@
+//! A folder of results: written whole, and read again to be drawn anew.
+
+use std::fs;
+use std::io;
+use std::path::Path;
+
+use serde_json::{Map, Value, json};
+use viewer::Recorded;
+
+use crate::engine::simulator::On;
+use crate::experiment::fields::Plot;
+use crate::files::digest::sha256;
+use crate::files::document::Document;
+use crate::files::fault::Fault;
+use crate::files::file::{self, PLAIN, is_plain};
+use crate::files::place::Place;
+use crate::host::host_clock::HostTimes;
+use crate::planning::plan::Plan;
+use crate::results::chart;
+use crate::results::console::table_text;
+use crate::results::host_times;
+use crate::results::reels;
+use crate::results::report;
+use crate::run::runner::{Endings, Options};
+use crate::run::saved::Saved;
+use crate::table::cheapest;
+use crate::table::runs_csv::Table;
+
+/// The results of an experiment: all that its plots and its report are drawn from.
+pub struct Results {
+    /// One row a run.
+    pub table: Table,
+    /// Configuration, seed, versions and digests.
+    pub manifest: Value,
+    /// What the report's viewer shows, if runs were recorded.
+    recorded: Option<Recorded>,
+}
+
+impl Results {
+    /// The results of a plan that was carried out so.
+    ///
+    /// # Errors
+    /// None is known: all is made in memory.
+    pub fn of(plan: &Plan, endings: &Endings, options: &Options) -> io::Result<Results> {
+        let table = Table::of(plan, endings);
+        let manifest = manifest(plan, &table, options.on)?;
+        let recorded = reels::recorded(plan, endings, options.threads.max(1));
+        Ok(Results { table, manifest, recorded })
+    }
+
+    /// Reads a folder of results.
+    ///
+    /// # Errors
+    /// If a file is missing, damaged or changed since it was written.
+    pub fn read(folder: &Path) -> Result<Results, Fault> {
+        let path = folder.join("manifest.json");
+        if !path.is_file() {
+            let message = "no manifest.json in it; expected a folder that `run` wrote";
+            return Err(Fault::of_file(folder.display(), message));
+        }
+        let document = Document::read(&path)?;
+        let csv = folder.join("runs.csv");
+        let bytes = file::read(&csv)?;
+        if document.value["runs_csv_sha256"] != Value::String(sha256(&bytes)) {
+            let message =
+                "does not have the digest that manifest.json states; expected it unchanged";
+            return Err(Fault::of_file(csv.display(), message));
+        }
+        let plots = &document.value["experiment"]["plots"];
+        let place = Place::of("experiment.plots");
+        for plot in document.typed::<Vec<Plot>>(plots, |_| place.clone())? {
+            if !is_plain(&plot.stem()) {
+                let message = format!("\"{}\" names a file; expected {PLAIN}", plot.stem());
+                return Err(document.fault(&place, message));
+            }
+        }
+        let table = Table::from_csv(&bytes).map_err(|error| file::unreadable(&csv, error))?;
+        // What was recorded stands nowhere but in the report.
+        let report = fs::read_to_string(folder.join("report.html")).ok();
+        let recorded = report.and_then(|html| Recorded::in_report(&html));
+        Ok(Results { table, manifest: document.value, recorded })
+    }
+
+    /// Writes all files of results, each whole, and then forgets the runs saved one by one,
+    /// unless some have failed.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn write(&self, out: &Path) -> io::Result<()> {
+        fs::create_dir_all(out)?;
+        file::write(&out.join("runs.csv"), &self.table.to_csv()?)?;
+        file::write(&out.join("manifest.json"), pretty(&self.manifest)?.as_bytes())?;
+        self.draw(out)?;
+        if self.failures() == 0 {
+            Saved::in_folder(out).forget()?;
+        }
+        Ok(())
+    }
+
+    /// Draws plots and report into a folder, with the host's times that it holds; returns the names
+    /// of the files.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn draw(&self, out: &Path) -> io::Result<Vec<String>> {
+        let sweeps = self.sweeps();
+        let mut names = Vec::new();
+        let mut drawings = Vec::new();
+        let table = host_times::beside(&self.table, out);
+        for plot in self.plots() {
+            let svg = chart::svg(&table, &sweeps, &plot);
+            let name = format!("{}.svg", plot.stem());
+            file::write(&out.join(&name), svg.as_bytes())?;
+            names.push(name);
+            // The report is the same on every host.
+            if !host_times::shown_in(&plot) {
+                drawings.push(svg);
+            }
+        }
+        let recorded = self.recorded.as_ref();
+        let html = report::html(&self.manifest, &self.table, &sweeps, &drawings, recorded);
+        file::write(&out.join("report.html"), html.as_bytes())?;
+        names.push("report.html".to_owned());
+        Ok(names)
+    }
+
+    /// The table for a terminal.
+    pub fn text(&self) -> String {
+        table_text(&self.table, &self.sweeps()) + &cheapest::text(&self.table, &self.sweeps())
+    }
+
+    /// How many runs failed.
+    pub fn failures(&self) -> usize {
+        self.table.rows.iter().filter(|row| self.table.cell(row, "ending") == "failed").count()
+    }
+
+    /// Names of the swept fields.
+    pub fn sweeps(&self) -> Vec<String> {
+        let names = self.manifest["sweeps"].as_array().into_iter().flatten();
+        names.filter_map(|name| Some(name.as_str()?.to_owned())).collect()
+    }
+
+    fn plots(&self) -> Vec<Plot> {
+        // Validated when the plan was made, or when the manifest was read.
+        serde_json::from_value(self.manifest["experiment"]["plots"].clone()).unwrap_or_default()
+    }
+}
+
+/// Everything that says where the results come from, and nothing of the host.
+fn manifest(plan: &Plan, table: &Table, on: On) -> io::Result<Value> {
+    let problems = plan.problems.iter().map(|prepared| {
+        let mut problem = json!(prepared.settings);
+        problem["patches"] = prepared.problem.patches().into();
+        problem
+    });
+    let files: Map<String, Value> =
+        plan.files.iter().map(|file| (file.label.clone(), file.sha256.clone().into())).collect();
+    let sweeps: Vec<String> = plan.axes.iter().map(|axis| axis.place.to_string()).collect();
+    let mut manifest = json!({
+        "title": plan.title,
+        "virtwall": env!("CARGO_PKG_VERSION"),
+        "on": on,
+        "seed": plan.resolved["seed"],
+        "runs": table.rows.len(),
+        "runs_csv_sha256": sha256(&table.to_csv()?),
+        "sweeps": sweeps,
+        "experiment": plan.resolved,
+        "problems": problems.collect::<Vec<Value>>(),
+        "files": files,
+        "warnings": plan.warnings,
+    });
+    let found = plan.settings_found();
+    if !found.is_empty() {
+        manifest["settings_found"] = found.into();
+    }
+    Ok(manifest)
+}
+
+/// Writes how long the host took: apart from the results, which do not depend on it.
+///
+/// # Errors
+/// If the file cannot be written.
+pub fn write_host_times(
+    out: &Path,
+    endings: &Endings,
+    seconds: f64,
+    threads: usize,
+) -> io::Result<()> {
+    let shots = json!({
+        "asked": endings.shots.asked(),
+        "found_in_memory": endings.shots.in_memory,
+        "found_on_disk": endings.shots.archived,
+        "cast": endings.shots.cast,
+        "cast_in_vain": endings.shots.in_vain,
+        "most_bytes_in_memory": endings.shot_bytes,
+    });
+    let of_runs = |times: &dyn Fn(&HostTimes) -> f64| -> Value {
+        endings.host.iter().map(|run| run.as_ref().map(times)).collect()
+    };
+    let runs = json!({
+        "cpu_s": of_runs(&|run| run.cpu_s),
+        "set_up_s": of_runs(&|run| run.set_up_s),
+        "clock_s": of_runs(&|run| run.clock_s),
+    });
+    let times = json!({ "threads": threads, "seconds": seconds, "shots": shots, "runs": runs });
+    fs::create_dir_all(out)?;
+    file::write(&out.join(host_times::FILE), pretty(&times)?.as_bytes())
+}
+
+fn pretty(value: &Value) -> io::Result<String> {
+    Ok(serde_json::to_string_pretty(value)? + "\n")
+}

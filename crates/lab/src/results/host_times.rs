@@ -1,0 +1,34 @@
+//! What the host took for each run, read again to be drawn. It stands apart from the results, which
+//! do not depend on it.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::experiment::fields::Plot;
+use crate::files::document::Document;
+use crate::table::columns::{HOST, HOST_TIMES};
+use crate::table::runs_csv::Table;
+
+/// The file in a folder of results.
+pub const FILE: &str = "host-times.json";
+
+/// The results with the host's columns, which are empty where `folder` does not tell them.
+pub fn beside(table: &Table, folder: &Path) -> Table {
+    let times = Document::read(&folder.join(FILE)).map_or(Value::Null, |file| file.value);
+    let mut table = table.clone();
+    for name in HOST_TIMES {
+        table.columns.push(HOST.to_owned() + name);
+        let of_runs = times["runs"][name].as_array().filter(|runs| runs.len() == table.rows.len());
+        for (run, row) in table.rows.iter_mut().enumerate() {
+            let time = of_runs.and_then(|runs| runs[run].as_f64());
+            row.push(time.map_or(String::new(), |seconds| seconds.to_string()));
+        }
+    }
+    table
+}
+
+/// Whether a plot shows what the host took: it is another one each time.
+pub fn shown_in(plot: &Plot) -> bool {
+    [&plot.x, &plot.y].iter().any(|text| text.contains(HOST))
+}

@@ -1,0 +1,67 @@
+//! Runs on several models of the network side by side: what the coarser ones miss, and what each costs.
+
+use std::collections::BTreeMap;
+
+use multicomputer::NetworkModel;
+
+use crate::planning::plan::{Plan, Run, all_else};
+use crate::run::runner::{Ending, Endings};
+
+/// The finest model of the network on which there is a run, and its time in virtual seconds, by all
+/// that is swept besides the network.
+pub type Finest = BTreeMap<Vec<usize>, (NetworkModel, f64)>;
+
+/// The finest runs of a plan.
+pub fn finest(plan: &Plan, endings: &Endings) -> Finest {
+    let mut finest = Finest::new();
+    for (run, rung, time) in timed(plan, endings) {
+        let found = finest.entry(all_else(plan, run, "network")).or_insert((rung, time));
+        if rung > found.0 {
+            *found = (rung, time);
+        }
+    }
+    finest
+}
+
+/// Runs that tell of their network, with the model used and the time.
+fn timed<'a>(
+    plan: &'a Plan,
+    endings: &'a Endings,
+) -> impl Iterator<Item = (&'a Run, NetworkModel, f64)> + use<'a> {
+    plan.runs.iter().zip(&endings.runs).filter_map(|(run, ending)| {
+        let (rung, time) = of(ending.as_ref()?)?;
+        Some((run, rung, time))
+    })
+}
+
+fn of(ending: &Ending) -> Option<(NetworkModel, f64)> {
+    let figures = ending.as_ref().ok()?;
+    let rung = figures.network.as_ref()?.rung.parse().ok()?;
+    Some((rung, figures.time_s?))
+}
+
+/// What each model of a sweep over networks differs by from the finest, at most, and what its runs took
+/// of the host; empty if no sweep goes over networks. Shots are kept from run to run, so that the
+/// models that come first pay for them.
+pub fn text(plan: &Plan, endings: &Endings) -> String {
+    let Some(axis) = plan.axes.iter().position(|axis| axis.place.to_string() == "network") else {
+        return String::new();
+    };
+    let finest = finest(plan, endings);
+    let mut text = format!("{:>9}{:>27}{:>10}\n", "network", "farthest from the finest", "CPU s");
+    for (item, value) in plan.axes[axis].values.iter().enumerate() {
+        let runs = plan.runs.iter().zip(endings.runs.iter().zip(&endings.host));
+        let (mut farthest, mut seconds) = (0.0_f64, 0.0);
+        for (run, (ending, host)) in runs.filter(|(run, _)| run.index[axis] == item) {
+            seconds += host.map_or(0.0, |host| host.cpu_s);
+            let time = ending.as_ref().and_then(of).map(|(_, time)| time);
+            let best = finest.get(&all_else(plan, run, "network"));
+            if let Some((time, (_, best))) = time.zip(best) {
+                farthest = farthest.max(((time - best) / best).abs());
+            }
+        }
+        let name = value.as_str().unwrap_or_default();
+        text += &format!("{name:>9}{:>25.5} %{seconds:>10.1}\n", farthest * 100.0);
+    }
+    text
+}

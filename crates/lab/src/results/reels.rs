@@ -1,0 +1,47 @@
+//! What the report's viewer is told of the runs that were filmed.
+
+use std::sync::Arc;
+
+use radiosity::Rgb;
+use viewer::{Recorded, Reel};
+
+use crate::accuracy::errors::laid_on;
+use crate::engine::simulator;
+use crate::planning::plan::{Plan, all_else};
+use crate::run::runner::Endings;
+
+/// Bytes that recordings may take in a report, about.
+const LIMIT: usize = 19_000_000;
+
+/// The recordings of a plan's runs, packed by so many threads; none if there are none.
+pub fn recorded(plan: &Plan, endings: &Endings, threads: usize) -> Option<Recorded> {
+    let mut groups: Vec<(usize, Vec<usize>)> = Vec::new();
+    let mut answers: Vec<Option<Arc<Vec<Rgb>>>> = vec![None; plan.problems.len()];
+    let mut reels = Vec::new();
+    for (run, film) in plan.runs.iter().zip(&endings.films) {
+        let Some(film) = film else { continue };
+        let key = (run.problem, all_else(plan, run, "processors"));
+        let group = groups.iter().position(|known| *known == key).unwrap_or(groups.len());
+        if group == groups.len() {
+            groups.push(key);
+        }
+        let problem = &plan.problems[run.problem].problem;
+        if answers[run.problem].is_none() {
+            let answer = plan.answer(run, &endings.dense);
+            answers[run.problem] = answer.map(|answer| Arc::new(laid_on(&answer, problem)));
+        }
+        let published = plan.comparison.of(&run.point.scene, run.point.processors);
+        reels.push(Reel {
+            label: plan.label(run),
+            scene: run.point.scene.clone(),
+            group,
+            problem,
+            machine: &plan.machines[run.machine].machine,
+            owners: simulator::owners(&run.point, problem),
+            answer: answers[run.problem].clone(),
+            published: published.speed_up.parse().ok(),
+            film,
+        });
+    }
+    (!reels.is_empty()).then(|| Recorded::of(&reels, LIMIT, threads))
+}

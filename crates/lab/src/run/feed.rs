@@ -1,0 +1,46 @@
+//! Runs while they are under way, for whoever follows them.
+
+use std::sync::Arc;
+
+use viewer::Audience;
+
+use crate::host::host_clock::Interval;
+
+/// Given a run, by its index in [`crate::Plan::runs`], and what is new of it, by the thread that simulates:
+/// it has to take it at once.
+pub type Feed = Arc<dyn Fn(usize, News) + Send + Sync>;
+
+/// What is new of a run.
+pub enum News {
+    /// What has happened since the part before, as the viewer's page reads it.
+    Part(String),
+    /// It has ended.
+    End,
+}
+
+/// Host seconds between parts.
+const BETWEEN_PARTS: f64 = 0.2;
+
+/// One run's way to those who follow.
+pub struct Follower {
+    run: usize,
+    feed: Feed,
+    interval: Interval,
+}
+
+impl Follower {
+    /// Of a run.
+    pub fn new(run: usize, feed: Feed) -> Follower {
+        Follower { run, feed, interval: Interval::new(BETWEEN_PARTS) }
+    }
+}
+
+impl Audience for Follower {
+    fn is_due(&mut self) -> bool {
+        self.interval.is_due()
+    }
+
+    fn receive(&mut self, part: String) {
+        (self.feed)(self.run, News::Part(part));
+    }
+}

@@ -1,0 +1,74 @@
+//! Which run is next: runs of one problem share the shots that are kept, so that workers had
+//! better share problems out among themselves, and the largest go first.
+
+use std::sync::Arc;
+
+use virtwall::{KeptShots, ShotCounts};
+
+use crate::planning::plan::Plan;
+
+/// Runs that wait, by problem.
+pub struct Queue {
+    problems: Vec<Waiting>,
+    counts: ShotCounts,
+}
+
+/// The runs of one problem that wait.
+struct Waiting {
+    /// In reverse of the plan's order, to be taken from the end.
+    runs: Vec<usize>,
+    /// Runs being worked on.
+    active: usize,
+    patches: usize,
+    kept: Option<Arc<KeptShots>>,
+}
+
+/// A run to be worked on.
+pub struct Task {
+    /// Index into [`Plan::runs`].
+    pub run: usize,
+    /// Index into [`Plan::problems`].
+    pub problem: usize,
+    /// Shots kept from other runs of the same problem.
+    pub kept: Arc<KeptShots>,
+}
+
+impl Queue {
+    /// A queue of the runs `waiting`.
+    pub fn new(plan: &Plan, waiting: impl Iterator<Item = usize>) -> Queue {
+        let empty = |patches| Waiting { runs: Vec::new(), active: 0, patches, kept: None };
+        let mut problems: Vec<Waiting> =
+            plan.problems.iter().map(|prepared| empty(prepared.problem.patches())).collect();
+        for run in waiting {
+            problems[plan.runs[run].problem].runs.push(run);
+        }
+        problems.iter_mut().for_each(|problem| problem.runs.reverse());
+        Queue { problems, counts: ShotCounts::default() }
+    }
+
+    /// The next run: of the problem with the fewest workers, of those one already begun, of those
+    /// the one with the most patches. The first one of a problem has its shots `kept`.
+    pub fn take(&mut self, kept: impl FnOnce(usize) -> KeptShots) -> Option<Task> {
+        let waiting = self.problems.iter_mut().enumerate().filter(|(_, p)| !p.runs.is_empty());
+        let (index, problem) =
+            waiting.min_by_key(|(_, p)| (p.active, p.kept.is_none(), usize::MAX - p.patches))?;
+        let run = problem.runs.pop()?;
+        problem.active += 1;
+        let kept = problem.kept.get_or_insert_with(|| Arc::new(kept(index)));
+        Some(Task { run, problem: index, kept: Arc::clone(kept) })
+    }
+
+    /// Takes note that a run has ended; a problem's kept shots go with its last run.
+    pub fn done(&mut self, task: &Task) {
+        let problem = &mut self.problems[task.problem];
+        problem.active -= 1;
+        if problem.active == 0 && problem.runs.is_empty() {
+            self.counts += problem.kept.take().map_or(ShotCounts::default(), |kept| kept.counts());
+        }
+    }
+
+    /// What became of the shots that ended problems asked for.
+    pub fn counts(&self) -> ShotCounts {
+        self.counts
+    }
+}

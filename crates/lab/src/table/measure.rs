@@ -1,0 +1,100 @@
+//! What an axis of a plot shows: a column of the results, or the product of several.
+
+use crate::table::runs_csv::Table;
+
+/// A column, or several with "*" between them, such as "patches*local_shots".
+pub struct Measure<'a>(Vec<&'a str>);
+
+impl<'a> Measure<'a> {
+    /// Takes apart what a plot says of an axis.
+    pub fn of(text: &'a str) -> Measure<'a> {
+        Measure(text.split('*').map(str::trim).collect())
+    }
+
+    /// The columns.
+    pub fn columns(&self) -> &[&'a str] {
+        &self.0
+    }
+
+    /// The product of a row's cells; `None` if one holds no number.
+    pub fn value(&self, table: &Table, row: &[String]) -> Option<f64> {
+        self.0.iter().map(|column| table.number(row, column)).product()
+    }
+
+    /// The unit of all cells of a single column that hold something, empty where there is none;
+    /// `None` if they have not the same, or one is no number. Of a product no unit is told.
+    pub fn unit<'t>(&self, table: &'t Table) -> Option<&'t str> {
+        let unit_of = |column: &str| {
+            let filled = table.rows.iter().filter(|row| !table.cell(row, column).is_empty());
+            let mut units = filled.map(|row| table.quantity(row, column).map(|(_, unit)| unit));
+            let first = units.next()??;
+            units.all(|unit| unit == Some(first)).then_some(first)
+        };
+        match self.0[..] {
+            [column] => unit_of(column),
+            _ => self.0.iter().all(|column| unit_of(column).is_some()).then_some(""),
+        }
+    }
+
+    /// Its name for people, without units.
+    pub fn words(&self) -> String {
+        let words = self.0.iter().map(|column| words(column)).collect::<Vec<_>>().join(" × ");
+        let mut letters = words.chars();
+        let first = letters.next().into_iter().flat_map(char::to_uppercase);
+        first.chain(letters).collect()
+    }
+
+    /// Its name with its unit: the cells' own, or the one that the name ends in.
+    pub fn with_unit(&self, unit: &str) -> String {
+        let unit = match self.0[..] {
+            [column] if column.ends_with("_s") => "s",
+            _ => unit,
+        };
+        let words = self.words();
+        if unit.is_empty() { words } else { format!("{words} ({unit})") }
+    }
+}
+
+/// A column's name for people: without the field that holds it, and without its unit.
+fn words(column: &str) -> String {
+    let name = column.rsplit('.').next().unwrap_or(column);
+    match column {
+        "speed_up" => return "speed-up".to_owned(),
+        "paper_speed_up" => return "paper's speed-up".to_owned(),
+        _ => {}
+    }
+    let words = name.strip_suffix("_s").unwrap_or(name).replace('_', " ");
+    match column.split_once('.') {
+        Some(("host", _)) => format!("host {}", words.replace("cpu", "CPU")),
+        Some(("operations", _)) => format!("{words}s counted"),
+        _ => words,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_product_multiplies_the_columns() {
+        let own = |cells: [&str; 2]| cells.map(str::to_owned).to_vec();
+        let rows = vec![own(["3", "0.5 m"]), own(["4", "none"])];
+        let table = Table { columns: own(["shots", "size"]), rows };
+        let product = Measure::of("shots * size");
+        assert_eq!(product.value(&table, &table.rows[0]), Some(1.5));
+        assert_eq!(product.value(&table, &table.rows[1]), None);
+        assert_eq!(product.words(), "Shots × size");
+        assert_eq!((product.unit(&table), Measure::of("shots").unit(&table)), (None, Some("")));
+    }
+
+    #[test]
+    fn names_are_told_in_words() {
+        let told = |name| Measure::of(name).with_unit("");
+        assert_eq!(told("time_s"), "Time (s)");
+        assert_eq!(told("speed_up"), "Speed-up");
+        assert_eq!(told("stop.patch_threshold"), "Patch threshold");
+        assert_eq!(told("host.cpu_s"), "Host CPU (s)");
+        assert_eq!(told("operations.ray"), "Rays counted");
+        assert_eq!(told("patches*local_shots"), "Patches × local shots");
+    }
+}

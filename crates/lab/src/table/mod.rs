@@ -1,0 +1,13 @@
+//! The table of results: its columns, and what is read from it.
+//!
+//! - [`columns`]: The columns of runs.csv.
+//! - [`runs_csv`]: runs.csv in memory.
+//! - [`measure`]: A column, or a product of columns.
+//! - [`comparison`]: Published figures.
+//! - [`cheapest`]: The cheapest run below an error.
+
+pub mod cheapest;
+pub mod columns;
+pub mod comparison;
+pub mod measure;
+pub mod runs_csv;
