@@ -6,7 +6,6 @@
 //! - `refinement`: smaller patches where radiosity changes
 
 mod greatest;
-#[expect(clippy::module_inception, reason = "one noun a file")]
 mod light;
 mod refinement;
 mod solve;

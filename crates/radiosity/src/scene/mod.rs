@@ -14,7 +14,6 @@ mod coplanar;
 mod error;
 mod mtl;
 mod obj;
-#[expect(clippy::module_inception, reason = "one noun a file")]
 mod scene;
 mod text;
 mod warnings;

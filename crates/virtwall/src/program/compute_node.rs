@@ -12,8 +12,8 @@ use super::region::{BestPatch, Region};
 use super::rules::{Order, Ties};
 use super::shared::Shared;
 use super::termination::{Action, Termination, protocol};
-use super::virtual_walls::Walls;
 use crate::problem::{Rank, Source};
+use crate::walls::Walls;
 use crate::wire::{Message, Sums};
 
 /// A compute node: its part of the scene, its queue, its part in the detection of the end.

@@ -1,26 +1,14 @@
 //! Virtual walls in place of masks: `send_wall_patches` takes the place of sending masks.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use radiosity::{Operation, Rgb, Shot, Work};
+use radiosity::{Operation, Shot, Work};
 
 use super::compute_node::ComputeNode;
 use super::process::{Process, Step};
 use crate::problem::Source;
-use crate::walls::{Gathered, WallPatch};
+use crate::walls::WallPatch;
 use crate::wire::Message;
-
-/// The virtual walls of a compute node, by environment.
-#[derive(Default)]
-pub(super) struct Walls(BTreeMap<u32, Gathered>);
-
-impl Walls {
-    /// Power that was gathered and not handed on, W.
-    pub fn power(&self) -> Rgb {
-        self.0.values().map(Gathered::power).sum()
-    }
-}
 
 impl ComputeNode {
     /// Gather what leaves the environment, then hand on the wall patches that are worth more than the best
@@ -32,8 +20,8 @@ impl ComputeNode {
         shot: &Shot,
     ) {
         let mut work = Work::NONE;
-        let gathered = self.walls.0.entry(source.environment).or_default();
-        work.count(Operation::Hit, gathered.gather(&self.shared.problem, source, shot));
+        let pixels = self.walls.gather(&self.shared.problem, source, shot);
+        work.count(Operation::Hit, pixels);
         let wall_patches =
             if self.selecting { self.take_wall_patches(&mut work) } else { Vec::new() };
         process.compute(Step::Gather, || ((), work)).await;
@@ -60,11 +48,8 @@ impl ComputeNode {
         let least = received.into_iter().chain(local).fold(shared.wall_threshold, f64::max);
         let selection = shared.rules.selection;
         let worth = |power, radiosity| selection.value_of(power, radiosity) >= least;
-        let mut taken = Vec::new();
-        for (&environment, gathered) in &mut self.walls.0 {
-            work.count(Operation::PatchScan, gathered.len());
-            taken.extend(gathered.hand_on(&shared.problem, environment, worth));
-        }
+        work.count(Operation::PatchScan, self.walls.patches());
+        let taken = self.walls.take(&shared.problem, worth);
         work.count(Operation::WordCopied, taken.iter().map(WallPatch::words).sum());
         taken
     }

@@ -9,7 +9,7 @@ use crate::problem::{Problem, Source};
 
 /// Power that leaves one environment, gathered by its wall patches.
 #[derive(Default)]
-pub(crate) struct Gathered(BTreeMap<WallPatchNumber, Held>);
+pub(super) struct Gathered(BTreeMap<WallPatchNumber, Held>);
 
 /// The side by which light leaves, by [`Side::index`], and the wall patch of that side.
 type WallPatchNumber = (usize, u32);
@@ -23,7 +23,7 @@ struct Held {
 
 impl Gathered {
     /// Gather the part of a source that leaves the environment; returns its number of pixels.
-    pub(crate) fn gather(&mut self, problem: &Problem, source: &Source, shot: &Shot) -> u64 {
+    pub fn gather(&mut self, problem: &Problem, source: &Source, shot: &Shot) -> u64 {
         let Some(walls) = &problem.walls else { return 0 };
         let emitter = &source.emitter;
         let around = problem.bounds(source.environment);
@@ -44,18 +44,18 @@ impl Gathered {
     }
 
     /// Power on all wall patches, W.
-    pub(crate) fn power(&self) -> Rgb {
+    pub fn power(&self) -> Rgb {
         self.0.values().map(|held| held.sum).sum()
     }
 
     /// The number of wall patches that have gathered anything.
-    pub(crate) fn len(&self) -> u64 {
+    pub fn patches(&self) -> u64 {
         self.0.len() as u64
     }
 
     /// Take the energy of the wall patches of `environment` that are `worth` handing on, by power, W, and
     /// radiosity, W/m². It is sent in single precision; the rounding error stays here.
-    pub(crate) fn hand_on(
+    pub fn take(
         &mut self,
         problem: &Problem,
         environment: u32,

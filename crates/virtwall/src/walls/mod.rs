@@ -3,6 +3,7 @@
 
 mod gathered;
 mod wall_patch;
+mod walls;
 
-pub(crate) use gathered::Gathered;
 pub use wall_patch::WallPatch;
+pub(crate) use walls::Walls;

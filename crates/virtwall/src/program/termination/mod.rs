@@ -1,35 +1,14 @@
 //! Termination detection (§4.2.4, second step): one protocol a file.
-//!
-//! A protocol is a state machine: events in, one action out. It knows no process and no network.
 
+mod protocol;
 mod token_ring;
 
+pub(super) use protocol::{Action, Termination};
+
+use self::token_ring::TokenRing;
 use crate::problem::Rank;
-
-/// One compute node's part in a protocol.
-pub(super) trait Termination: Send {
-    /// This node sends a source to another.
-    fn source_sent(&mut self);
-
-    /// The token arrives.
-    fn token_arrived(&mut self, value: bool);
-
-    /// This node has nothing to compute: what it does now.
-    fn idle(&mut self) -> Action;
-}
-
-/// What a node with nothing to compute does.
-#[derive(Debug, PartialEq, Eq)]
-pub(super) enum Action {
-    /// Wait for a message.
-    Wait,
-    /// Send the token with this value.
-    Send(Rank, bool),
-    /// Announce the end to all processes.
-    Announce,
-}
 
 /// The part of node `rank` among `nodes` compute nodes.
 pub(super) fn protocol(rank: Rank, nodes: usize) -> Box<dyn Termination> {
-    Box::new(token_ring::TokenRing::new(rank, nodes))
+    Box::new(TokenRing::new(rank, nodes))
 }

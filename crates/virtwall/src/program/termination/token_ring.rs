@@ -1,6 +1,6 @@
 //! The paper's protocol: a token with a truth value that goes round a ring of all compute nodes.
 
-use super::{Action, Termination};
+use super::protocol::{Action, Termination};
 use crate::problem::Rank;
 
 /// One compute node's part in the ring.
