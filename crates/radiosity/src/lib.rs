@@ -1,6 +1,7 @@
 //! What light does: scenes, meshes, hemispheres, visibility masks, shooting, pictures.
 //!
-//! The crate knows nothing of processors, messages or time. Each folder imports only those listed above it:
+//! The crate knows nothing of processors, messages or time. Each folder imports only those listed
+//! above it:
 //!
 //! - `geometry`: boxes, rays, clipping: geometry that knows no scene
 //! - `media`: participating media that absorb light (§3.2)

@@ -1,5 +1,6 @@
-//! Virtual walls, the method before visibility masks (§3 and reference [1] of RR-3008): interfaces between
-//! environments are meshed, and the energy that reaches them is gathered by wall patch and by direction.
+//! Virtual walls, the method before visibility masks (§3 and reference [1] of RR-3008): interfaces
+//! between environments are meshed, and the energy that reaches them is gathered by wall patch and
+//! by direction.
 
 use glam::DVec3;
 use thiserror::Error;
@@ -12,10 +13,10 @@ use crate::shoot::{Emitter, Hemisphere, Mask, unlifted};
 /// The mesh of all virtual walls, and the bins of directions of their wall patches.
 ///
 /// Choice C40: RR-3008 only says that reference [1] needs "several information such as the spatial
-/// distribution of the energy" on wall patches. Here each interface has p × q equal wall patches. Their
-/// cosine-weighted directions form d × d bins of equal form factor (the concentric map of a square, which
-/// keeps bins compact). Of gathered energy only the wall patch and the bin are known. It leaves from the
-/// centre of the wall patch, evenly over the bin, by rays of equal weight.
+/// distribution of the energy" on wall patches. Here each interface has p × q equal wall patches.
+/// Their cosine-weighted directions form d × d bins of equal form factor (the concentric map of a
+/// square, which keeps bins compact). Of gathered energy only the wall patch and the bin are known.
+/// It leaves from the centre of the wall patch, evenly over the bin, by rays of equal weight.
 #[derive(Clone, Debug)]
 pub struct VirtualWalls {
     /// Number of wall patches along the two axes of an interface, in the order x, y, z.
@@ -57,8 +58,8 @@ impl Emitter {
 }
 
 impl VirtualWalls {
-    /// Virtual walls with `patches` wall patches of `directions` × `directions` bins each. A wall patch emits
-    /// about `rays` rays: each bin has an equal square number of them.
+    /// Virtual walls with `patches` wall patches of `directions` × `directions` bins each. A wall
+    /// patch emits about `rays` rays: each bin has an equal square number of them.
     ///
     /// # Errors
     /// Numbers out of range.
@@ -104,8 +105,8 @@ impl VirtualWalls {
         emitter.is_of_a_wall().then(|| &self.bins[bin])
     }
 
-    /// A bin of a wall patch as an emitter of `power`. Its light enters the environment with bounds `around`
-    /// through `side`.
+    /// A bin of a wall patch as an emitter of `power`. Its light enters the environment with bounds
+    /// `around` through `side`.
     pub fn emitter(
         &self,
         around: &Bounds,
@@ -131,8 +132,8 @@ impl VirtualWalls {
         }
     }
 
-    /// Gathers the light of `mask` that leaves an environment with bounds `around` through `side`: calls
-    /// `add` with wall patch and bin, and the form factor, of every pixel.
+    /// Gathers the light of `mask` that leaves an environment with bounds `around` through `side`:
+    /// calls `add` with wall patch and bin, and the form factor, of every pixel.
     pub fn gather(
         &self,
         around: &Bounds,
@@ -146,8 +147,8 @@ impl VirtualWalls {
         let plane = if side.upper { around.max } else { around.min }[side.axis];
         for pixel in mask.ones() {
             let direction = hemisphere.direction(frame, pixel);
-            // Rays of an emitter in the plane of the wall can run inside that plane. They cross it at their
-            // origin.
+            // Rays of an emitter in the plane of the wall can run inside that plane. They cross it
+            // at their origin.
             let distance = (plane - emitter.centre[side.axis]) / direction[side.axis];
             let distance = if distance.is_finite() { distance } else { 0.0 };
             let patch = self.patch_at(around, side, emitter.centre + direction * distance);
@@ -199,8 +200,8 @@ mod tests {
     const AROUND: Bounds =
         Bounds { min: DVec3::new(-1.0, 0.5, 2.0), max: DVec3::new(1.0, 2.0, 5.0) };
 
-    /// Light emitted by a bin of a wall patch and sent back through its own wall is gathered in the same wall
-    /// patch and bin, so a wall changes neither energy nor its distribution.
+    /// Light emitted by a bin of a wall patch and sent back through its own wall is gathered in the
+    /// same wall patch and bin, so a wall changes neither energy nor its distribution.
     #[test]
     fn a_wall_patch_gathers_what_it_emits() {
         let walls = VirtualWalls::new([3, 5], 6, 900).unwrap();

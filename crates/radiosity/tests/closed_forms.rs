@@ -1,4 +1,4 @@
-//! Scenes whose answer is known.
+//! Scenes with known solutions.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
 
@@ -21,7 +21,7 @@ fn quad(points: [[f64; 3]; 4], object: u32) -> Face {
     Face { points: points.map(DVec3::from).to_vec(), material: 0, object }
 }
 
-/// A box of a × b × c seen from inside; floor and ceiling are objects 0 and 1, the walls 2.
+/// A box of a × b × c seen from inside. Floor, ceiling and walls are objects 0, 1 and 2.
 fn room([a, b, c]: [f64; 3]) -> Vec<Face> {
     let o = 0.0;
     vec![
@@ -57,7 +57,7 @@ fn form_factor(space: &Space, from: u32, to: u32, size: f64, pixels: u32) -> f64
         if object(patch.polygon) != from {
             continue;
         }
-        let source = Emitter {
+        let emitter = Emitter {
             environment: 0,
             patch: number,
             polygon: patch.polygon,
@@ -66,7 +66,7 @@ fn form_factor(space: &Space, from: u32, to: u32, size: f64, pixels: u32) -> f64
             power: Rgb::ONE,
             radiosity: Rgb::ONE,
         };
-        let shot = shoot(space, &environment, &hemisphere, &source, &Mask::all(pixels));
+        let shot = shoot(space, &environment, &hemisphere, &emitter, &Mask::all(pixels));
         let hits = shot
             .hits
             .iter()
@@ -77,8 +77,8 @@ fn form_factor(space: &Space, from: u32, to: u32, size: f64, pixels: u32) -> f64
     sum / area
 }
 
-/// Errors over a refinement of patches and pixels, relative to the exact value: each at most 0.35 of
-/// the one before (centre sampling is of second order), the last below `last`.
+/// Checks relative errors over refinements of patches and pixels: each is at most 0.35 of the one
+/// before (sampling from centres is of second order), the last is below `last`.
 fn converges(faces: &[Face], from: u32, to: u32, exact: f64, last: f64) {
     let space = space(faces, grey(0.5, 0.0));
     let errors: Vec<f64> = [(1.0, 4_096), (0.5, 16_384), (0.25, 65_536), (0.125, 65_536)]
@@ -98,8 +98,8 @@ fn parallel_squares() {
     converges(&faces, 0, 1, 0.199_824_895_7, 3.5e-3);
 }
 
-/// Howell C-14, unit squares with a common edge. Patches at the edge touch their receivers, where
-/// one ray source a patch is at its worst: the error falls only linearly.
+/// Howell C-14, unit squares with a common edge. Patches at the edge touch their receivers, for
+/// which sampling from the centre is least accurate: the error falls only linearly.
 #[test]
 fn perpendicular_squares() {
     let space = space(&room([1.0; 3])[..3], grey(0.5, 0.0));
@@ -112,7 +112,7 @@ fn perpendicular_squares() {
     assert!(errors[3] < 0.02, "{errors:?}");
 }
 
-/// Unit squares at distance 1 with [0,½]² midway: 0.1498686718.
+/// Unit squares at distance 1 with an obstacle [0,½]² midway: 0.1498686718.
 #[test]
 fn obstructed_squares() {
     let mut faces = room([1.0, 1.0, 1.0]);
@@ -123,9 +123,9 @@ fn obstructed_squares() {
     converges(&faces, 0, 1, 0.149_868_671_8, 5e-3);
 }
 
-/// A closed box with uniform reflectance and emission: B = E / (1 − ρ) everywhere. Only patches
-/// along the edges are badly sampled from their centres; their share of the area falls with the
-/// patches' size h, so the L2 error falls as √h.
+/// A closed box with uniform reflectance and emission: B = E / (1 − ρ) everywhere. Only for patches
+/// along the edges is sampling from centres inaccurate. Their fraction of the area falls with the
+/// patch size h, so the L2 error falls as √h.
 #[test]
 fn furnace() {
     for reflectance in [0.5, 0.8] {
@@ -134,7 +134,7 @@ fn furnace() {
         let spread = [1.0, 0.5].map(|size| {
             let environment = whole(&space, size);
             let (light, _) = solve(&space, &environment, &fibonacci(2_048), 1e-5, u64::MAX);
-            // Energy is conserved, so the mean is exact but for what is left unshot.
+            // Energy is conserved, so the mean is exact except for the unshot power.
             let mean = light.leaving.iter().sum::<Rgb>().x / space.scene.area();
             assert!((mean / exact - 1.0).abs() < 1e-4, "{mean} {exact}");
             let squares = (0..environment.patches.len() as u32).map(|patch| {
@@ -147,7 +147,7 @@ fn furnace() {
     }
 }
 
-/// An open scene: what leaves it is counted as escaped, and energy closes.
+/// An open scene: light that leaves it is counted as escaped, and the energy balance closes.
 #[test]
 fn open_to_the_sky() {
     let space = space(&room([2.0, 2.0, 1.0])[..1], grey(0.5, 1.0));

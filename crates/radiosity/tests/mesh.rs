@@ -1,4 +1,4 @@
-//! The radiosities of patches, found again in meshes, pictures and glTF files.
+//! Meshes of triangles, pictures and glTF files show the radiosities of patches.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
 
@@ -9,7 +9,7 @@ use radiosity::{
     Scene, Shading, Space, Tone, render,
 };
 
-/// Two floors side by side, 2 m by 2 m in one plane, the right one of another material, and a wall.
+/// Two floors side by side, 2 m × 2 m in one plane but of different materials, and a wall.
 fn scene() -> Scene {
     let face = |points: [[f64; 3]; 4], material| {
         let points = points.map(|p| DVec3::from(p) + DVec3::new(1e3, 2e3, 0.0)).to_vec();
@@ -28,7 +28,7 @@ fn scene() -> Scene {
     Scene::new(&faces, materials, vec!["all".to_owned()]).unwrap().0
 }
 
-/// The scene cut in two across both floors, with patches of 1 m.
+/// The scene divided in two across both floors, with patches of 1 m.
 fn cut() -> (Space, Vec<LocalEnvironment>) {
     let space = Space::new(scene(), [1, 2, 1]);
     let environment = |row: u32| {
@@ -40,13 +40,13 @@ fn cut() -> (Space, Vec<LocalEnvironment>) {
     (space, environments)
 }
 
-/// A radiosity for each patch, from its centre.
+/// A radiosity for each patch, as a function of its centre.
 fn light(environments: &[LocalEnvironment], of: impl Fn(DVec3) -> Rgb) -> Vec<Vec<Rgb>> {
     let patches = |e: &LocalEnvironment| e.patches.iter().map(|p| of(p.centre)).collect();
     environments.iter().map(patches).collect()
 }
 
-/// Brighter to the right and to the back.
+/// Increases to the right and to the back.
 fn slope(at: DVec3) -> Rgb {
     Rgb::new(10.0 + 3.0 * at.x + 2.0 * at.y, 5.0, 1.0)
 }
@@ -57,21 +57,21 @@ fn corners_have_the_mean_of_the_patches_that_meet_there() {
     let radiosity = light(&environments, slope);
     let mesh = Mesh::new(&space, &environments, Shading::Smooth);
     let lit = mesh.light(&radiosity);
-    // On the left floor, 2 m by 2 m with four patches: local x from -2 to 0, y from -1 to 1.
+    // The left floor, 2 m × 2 m with four patches: local x from -2 to 0, y from -1 to 1.
     let at = |x, y| mesh.radiosity_at(&lit, 0, DVec3::new(x, y, -0.5));
-    // A slope is met at the inner corner, and where between it and the middle of an edge.
+    // A linear function is reproduced at the inner corner.
     assert!(at(-1.0, 0.0).distance(slope(DVec3::new(-1.0, 0.0, 0.0))) < 1e-12);
-    // An outer corner has the radiosity of its one patch, an edge's middle the mean of two.
+    // An outer corner has the radiosity of its only patch.
     assert!(at(-2.0, -1.0).distance(slope(DVec3::new(-1.5, -0.5, 0.0))) < 1e-12);
-    // The floors differ in material: no mean is taken across.
+    // The floors have different materials, so no mean is taken across their edge.
     assert!(at(0.0, 0.0).distance(slope(DVec3::new(-0.5, 0.0, 0.0))) < 1e-12);
-    // A middle has the mean of its corners.
+    // The middle of a patch has the mean of its corners.
     let corners = [at(-2.0, -1.0), at(-1.0, -1.0), at(-1.0, 0.0), at(-2.0, 0.0)];
     assert!(at(-1.5, -0.5).distance(corners.iter().sum::<Rgb>() / 4.0) < 1e-12);
 }
 
 #[test]
-fn flat_patches_have_their_own_radiosity_all_over() {
+fn flat_patches_have_constant_radiosity() {
     let (space, environments) = cut();
     let radiosity = light(&environments, slope);
     let mesh = Mesh::new(&space, &environments, Shading::Flat);
@@ -91,9 +91,10 @@ fn flat_patches_have_their_own_radiosity_all_over() {
     }
 }
 
-/// Two coplanar polygons whose patches do not fit: along their common edge both show the same.
+/// Two coplanar polygons with patches of different sizes have equal radiosities along their common
+/// edge.
 #[test]
-fn no_seam_shows_where_patches_of_different_sizes_meet() {
+fn there_is_no_seam_between_patches_of_different_sizes() {
     let rectangle = |[x0, x1]: [f64; 2], height: f64| {
         let points = [[x0, 0.0], [x1, 0.0], [x1, height], [x0, height]];
         let points = points.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec();
@@ -108,22 +109,23 @@ fn no_seam_shows_where_patches_of_different_sizes_meet() {
     let mesh = Mesh::new(&space, &environments, Shading::Smooth);
     let lit = mesh.light(&light(&environments, |at| Rgb::new(at.x * at.y, at.y, 1.0)));
     for share in 1..30 {
-        // The edge is at x = 2 and y from 0 to 1.5; local coordinates are from the centre.
+        // The edge is at x = 2 and y from 0 to 1.5. Local coordinates are relative to the centre.
         let at = DVec3::new(0.5, 0.05 * f64::from(share) - 1.0, 0.0);
         let [left, right] = [0, 1].map(|polygon| mesh.radiosity_at(&lit, polygon, at));
         assert!(left.distance(right) < 1e-9, "{at}: {left} {right}");
     }
 }
 
-/// sRGB's transfer function, backwards.
+/// Inverse of the sRGB transfer function.
 fn linear(code: u8) -> f64 {
     let encoded = f64::from(code) / 255.0;
     if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }
 
-/// Every pixel in the middle of a patch says its radiosity, to half a step of the picture's eight bits.
+/// A pixel in the middle of a patch shows its radiosity, to half a step of the eight bits of the
+/// picture.
 #[test]
-fn pixels_say_the_radiosity() {
+fn pixels_show_the_radiosity() {
     let (space, environments) = cut();
     let radiosity = light(&environments, slope);
     let mesh = Mesh::new(&space, &environments, Shading::Flat);
@@ -140,7 +142,7 @@ fn pixels_say_the_radiosity() {
     let options = PictureOptions { exposure, tone, ..PictureOptions::default() };
     let colour = |polygon, point| mesh.radiosity_at(&lit, polygon, point);
     let picture = render(&space.scene, &camera, colour, options).unwrap();
-    // Metres that a pixel is wide, where the floor is.
+    // Width of a pixel at the distance of the floor, metres.
     let pixel = 2.0 * 9.5 * 10.0_f64.to_radians().tan() / 120.0;
     let mut seen = 0;
     for (environment, radiosity) in environments.iter().zip(&radiosity) {
@@ -161,9 +163,10 @@ fn pixels_say_the_radiosity() {
     assert_eq!(seen, 8);
 }
 
-/// A reader that is not ours finds in a glTF file the mesh, its radiosities and what a picture shows.
+/// An independent reader finds the mesh, its radiosities and the colours of a picture in a glTF
+/// file.
 #[test]
-fn a_gltf_file_holds_the_same() {
+fn a_gltf_file_contains_mesh_radiosities_and_colours() {
     let (space, environments) = cut();
     let radiosity = light(&environments, slope);
     for (shading, vertices) in [(Shading::Smooth, 12 + 9 + 9 + 10), (Shading::Flat, 5 * 12)] {
@@ -190,7 +193,7 @@ fn a_gltf_file_holds_the_same() {
         let Some(ReadIndices::U32(indices)) = reader.read_indices() else { panic!("32 bits") };
         let indices: Vec<u32> = indices.collect();
         assert_eq!(indices.len(), 12 * 4 * 3);
-        // 12 m² of floors and wall, whose fronts look up and to -y: in the file up is y.
+        // 12 m² of floors and wall, which face up and to -y. In the file up is y.
         let corner = |i: u32| DVec3::from(positions[i as usize].map(f64::from));
         let areas = indices
             .chunks(3)

@@ -1,4 +1,4 @@
-//! OBJ files, good, odd and broken.
+//! Valid, unusual and broken OBJ files.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,20 +12,20 @@ fn data(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name)
 }
 
-/// Loads an OBJ text, with an MTL text beside it as `a.mtl`.
+/// Loads an OBJ text, with an MTL text as `a.mtl`.
 fn load(obj: impl AsRef<[u8]>, mtl: Option<&str>) -> Result<(Scene, Warnings), SceneError> {
-    let folder = TempDir::new().expect("a folder for a moment");
+    let folder = TempDir::new().expect("a temporary folder");
     if let Some(mtl) = mtl {
-        fs::write(folder.path().join("a.mtl"), mtl).expect("a file in it");
+        fs::write(folder.path().join("a.mtl"), mtl).expect("a temporary file");
     }
     let path = folder.path().join("a.obj");
-    fs::write(&path, obj).expect("a file in it");
+    fs::write(&path, obj).expect("a temporary file");
     load_obj(&path)
 }
 
-/// The message for a broken OBJ text, without the folder.
-fn complaint(obj: impl AsRef<[u8]>, mtl: Option<&str>) -> String {
-    let message = load(obj, mtl).expect_err("this makes no sense").to_string();
+/// The error message for a broken OBJ text, without the folder.
+fn error_message(obj: impl AsRef<[u8]>, mtl: Option<&str>) -> String {
+    let message = load(obj, mtl).expect_err("an error").to_string();
     let file = message.rfind("a.obj").or(message.rfind("a.mtl")).expect("a file is named");
     message[file..].to_owned()
 }
@@ -43,7 +43,7 @@ fn a_box_loads_exactly() {
     assert_eq!(scene.vertices.len(), 12);
 
     let floor = &scene.polygons[0];
-    assert_eq!(floor.vertices.len(), 4, "the corner within an edge goes");
+    assert_eq!(floor.vertices.len(), 4, "a corner on an edge is removed");
     assert_eq!((floor.plane.normal, floor.plane.offset), (DVec3::Z, -0.5));
     assert_eq!(floor.area, 2.0);
     assert_eq!(scene.material(floor).reflectance, DVec3::splat(0.7));
@@ -58,7 +58,7 @@ fn a_box_loads_exactly() {
 }
 
 #[test]
-fn odd_faces_are_mended_and_counted() {
+fn unusual_faces_are_repaired_and_counted() {
     let (scene, warnings) = load_obj(&data("odd.obj")).unwrap();
     let counts: Vec<_> = warnings.iter().map(|w| (w.kind, w.count)).collect();
     let expected = [
@@ -87,7 +87,7 @@ fn odd_faces_are_mended_and_counted() {
 
 #[test]
 fn messages_name_file_line_value_and_what_was_expected() {
-    let face = |line: &str| complaint(format!("{SQUARE}{line}\n"), None);
+    let face = |line: &str| error_message(format!("{SQUARE}{line}\n"), None);
     assert_eq!(face("f 1 2 9"), "a.obj:5: vertex \"9\" of a face; expected 1 to 4 here");
     assert_eq!(face("f 1 2 0"), "a.obj:5: vertex \"0\" of a face; expected 1 to 4 here");
     assert_eq!(face("f 1 2 -5"), "a.obj:5: vertex \"-5\" of a face; expected 1 to 4 here");
@@ -97,28 +97,28 @@ fn messages_name_file_line_value_and_what_was_expected() {
          f 1 2 3, or f 1/1/1 2/2/2 3/3/3"
     );
     assert_eq!(
-        complaint("v 0 0 0\nv 0 zero 0\n", None),
+        error_message("v 0 0 0\nv 0 zero 0\n", None),
         "a.obj:2: \"v 0 zero 0\": position parse error; expected three numbers: v X Y Z"
     );
-    assert!(complaint("v 0 0\n", None).starts_with("a.obj:1: \"v 0 0\": position"));
+    assert!(error_message("v 0 0\n", None).starts_with("a.obj:1: \"v 0 0\": position"));
     for (word, value) in [("nan", "NaN"), ("inf", "inf"), ("1e400", "inf"), ("2e12", "20000")] {
-        let message = complaint(format!("{SQUARE}v 0 0 {word}\nf 1 2 5\n"), None);
+        let message = error_message(format!("{SQUARE}v 0 0 {word}\nf 1 2 5\n"), None);
         assert!(message.starts_with("a.obj:5: "), "{message}");
         assert!(message.contains(value) && message.contains("expected finite"), "{message}");
     }
-    assert!(complaint("", None).starts_with("a.obj: no surface"));
-    assert!(complaint(SQUARE, None).contains("expected at least one"));
-    assert!(complaint(format!("{SQUARE}f 1 2 2"), None).contains("1 faces, none with an area"));
+    assert!(error_message("", None).starts_with("a.obj: no surface"));
+    assert!(error_message(SQUARE, None).contains("expected at least one"));
+    assert!(error_message(format!("{SQUARE}f 1 2 2"), None).contains("1 faces, none with an area"));
 
     let nowhere = load_obj(Path::new("no/such.obj")).expect_err("there is none").to_string();
     assert!(nowhere.starts_with("no/such.obj: cannot be read: "), "{nowhere}");
 }
 
 #[test]
-fn materials_that_cannot_be_are_refused() {
+fn impossible_materials_are_rejected() {
     let material = |lines: &str| {
         let obj = format!("mtllib a.mtl\n{SQUARE}usemtl m\nf 1 2 3 4\n");
-        complaint(obj, Some(&format!("newmtl m\n{lines}\n")))
+        error_message(obj, Some(&format!("newmtl m\n{lines}\n")))
     };
     let kd = |value: &str| {
         format!(
@@ -142,16 +142,16 @@ fn materials_that_cannot_be_are_refused() {
 }
 
 #[test]
-fn old_encodings_and_vertex_colours_do_no_harm() {
+fn old_encodings_and_vertex_colours_are_accepted() {
     let obj = b"\xef\xbb\xbfo caf\xe9\nv 0 0 0 1 0 0\nv 1 0 0\r\nv 0 1 0 1\nf 1/7/8 2 3\n";
     let (scene, _) = load(obj, None).unwrap();
     assert_eq!(scene.objects, ["caf\u{fffd}"]);
     assert_eq!(scene.area(), 0.5);
 }
 
-/// Texts like OBJ files, mostly broken.
+/// An OBJ file with random edits, mostly broken.
 fn mutated() -> impl Strategy<Value = Vec<u8>> {
-    let good = fs::read(data("odd.obj")).expect("a file of ours");
+    let good = fs::read(data("odd.obj")).expect("test data");
     let length = good.len();
     let edit = (0..length, 0..4usize, prop::collection::vec(any::<u8>(), 0..4));
     prop::collection::vec(edit, 0..12).prop_map(move |edits| {
@@ -165,8 +165,8 @@ fn mutated() -> impl Strategy<Value = Vec<u8>> {
     })
 }
 
-/// Lines out of the words of the formats, well formed or not.
-fn jumbled() -> impl Strategy<Value = String> {
+/// Lines of random words of the formats.
+fn random_words() -> impl Strategy<Value = String> {
     let words = "v f o g usemtl mtllib newmtl Kd Ke l \\ # a.mtl m 0 1 2 3 4 -1 -2 0.5 1e-9 1e308 \
                  nan 1/2/3 2//1 9223372036854775807 -9223372036854775808";
     let words: Vec<&str> = words.split(' ').collect();
@@ -175,8 +175,8 @@ fn jumbled() -> impl Strategy<Value = String> {
         .prop_map(|lines| lines.iter().map(|words| words.join(" ") + "\n").collect())
 }
 
-/// Faces over few places, so that corners, edges and planes coincide.
-fn tangled() -> impl Strategy<Value = String> {
+/// Faces over few points, so that corners, edges and planes coincide.
+fn coincident() -> impl Strategy<Value = String> {
     let place = prop::array::uniform3(prop::sample::select(vec![0.0, 1e-10, 0.3, 0.5, 1.0]));
     let face = prop::collection::vec(1..13u32, 1..9);
     (prop::collection::vec(place, 12), prop::collection::vec(face, 1..12)).prop_map(
@@ -190,7 +190,7 @@ fn tangled() -> impl Strategy<Value = String> {
     )
 }
 
-/// What a clean scene promises.
+/// Checks the properties of a clean scene.
 fn assert_clean(scene: &Scene) {
     for polygon in &scene.polygons {
         let corners: Vec<DVec3> = scene.corners(polygon).collect();
@@ -218,7 +218,7 @@ proptest! {
     }
 
     #[test]
-    fn jumbled_words_never_panic(obj in jumbled(), mtl in jumbled()) {
+    fn random_words_never_panic(obj in random_words(), mtl in random_words()) {
         let _ = load(obj, Some(&mtl));
     }
 
@@ -228,7 +228,7 @@ proptest! {
     }
 
     #[test]
-    fn tangled_faces_come_out_clean(text in tangled()) {
+    fn coincident_faces_give_a_clean_scene(text in coincident()) {
         if let Ok((scene, _)) = load(text, None) {
             assert_clean(&scene);
         }

@@ -1,9 +1,9 @@
-//! Pictures of small scenes whose pixels are known.
+//! Pictures of small scenes with known pixels.
 
 use glam::DVec3;
 use radiosity::{Camera, Exposure, Face, Material, Picture, PictureOptions, Rgb, Scene, render};
 
-/// Two horizontal squares, 2 m wide, at heights 0 and 1, facing as told.
+/// Two horizontal squares, 2 m wide, at heights 0 and 1. The lower one faces up.
 fn squares(upper_faces_up: bool) -> Scene {
     let square = |z: f64, up: bool| {
         let mut points: Vec<DVec3> = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
@@ -56,8 +56,8 @@ fn pixel(picture: &Picture, column: usize, row: usize) -> [u8; 3] {
     [picture.rgb[at], picture.rgb[at + 1], picture.rgb[at + 2]]
 }
 
-/// What middle grey becomes, and each colour of its radiosity: worked out by hand from Reinhard's
-/// equation 4 (key 0.35, white 2.1) and sRGB's transfer function.
+/// Pixels of middle grey and of each colour with that radiosity, calculated by hand from Reinhard's
+/// equation 4 (key 0.35, white 2.1) and the sRGB transfer function.
 const GREY: [u8; 3] = [144; 3];
 const RED: [u8; 3] = [156, 0, 0];
 const GREEN: [u8; 3] = [0, 148, 0];
@@ -65,7 +65,7 @@ const BLUE: [u8; 3] = [0, 0, 158];
 const BACKGROUND: [u8; 3] = [29; 3];
 
 #[test]
-fn the_nearer_polygon_is_seen() {
+fn the_nearer_polygon_is_visible() {
     let picture = draw(&squares(true), PictureOptions::default());
     assert_eq!(pixel(&picture, 28, 20), GREEN);
     assert_eq!(pixel(&picture, 31, 20), BLUE);
@@ -79,15 +79,15 @@ fn backs_are_invisible() {
 }
 
 #[test]
-fn what_is_above_the_cut_is_left_out() {
+fn polygons_above_the_cut_are_omitted() {
     let cut_above = Some(0.0);
     let picture = draw(&squares(true), PictureOptions { cut_above, ..Default::default() });
     assert_eq!(pixel(&picture, 28, 20), RED);
 }
 
 #[test]
-fn edges_fall_where_perspective_puts_them() {
-    // The eye stands 9.5 m above the upper square (heights are local), whose edge is 1 m away.
+fn edges_are_projected_in_perspective() {
+    // The eye is 9.5 m above the upper square (heights are local), whose edge is 1 m away.
     let picture = draw(&squares(true), PictureOptions::default());
     let edge = 1.0 / (9.5 * 20f64.to_radians().tan()) * 20.0;
     let first = (0..60).find(|&column| pixel(&picture, column, 20) != BACKGROUND);
@@ -109,7 +109,7 @@ fn a_camera_inside_a_scene_sees_what_is_ahead() {
 }
 
 #[test]
-fn an_overview_just_holds_the_scene() {
+fn an_overview_just_contains_the_scene() {
     let scene = squares(true);
     let camera = Camera::overview(&scene.bounds, 300, 200);
     let picture = render(&scene, &camera, |_, _| Rgb::ONE, PictureOptions::default()).unwrap();
@@ -125,7 +125,7 @@ fn an_overview_just_holds_the_scene() {
 }
 
 #[test]
-fn strange_cameras_do_no_harm() {
+fn unusual_cameras_do_not_panic() {
     let scene = squares(true);
     let at = |eye, target| Camera { eye, target, ..from_above() };
     let cameras = [
@@ -150,7 +150,7 @@ fn strange_cameras_do_no_harm() {
 }
 
 #[test]
-fn a_png_holds_the_picture() {
+fn a_png_file_contains_the_picture() {
     let picture = draw(&squares(true), PictureOptions::default());
     let bytes = picture.encode_png().unwrap();
     let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();

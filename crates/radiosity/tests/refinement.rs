@@ -1,4 +1,4 @@
-//! Meshes that are finer where radiosity changes: still meshes, and finer only there.
+//! Refined meshes are valid, and finer only where radiosity changes.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
 
@@ -23,8 +23,8 @@ fn face(points: &[[f64; 3]], material: u32) -> Face {
     Face { points: points.iter().map(|&p| DVec3::from(p)).collect(), material, object: 0 }
 }
 
-/// A room of 8 × 4 × 3 m seen from inside: empty, all of it glowing, or with a lamp low over the floor at
-/// one end and a slanted triangle at the other.
+/// A room of 8 × 4 × 3 m seen from inside: either empty with emitting walls, or with a lamp low
+/// above the floor at one end and a slanted triangle at the other.
 fn room(glows: bool) -> Space {
     let sides =
         [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
@@ -43,7 +43,7 @@ fn refinement(space: &Space, relative_l2: f64) -> Refinement {
     Refinement::new(space, SIZE, Wanted { relative_l2, most_halvings: 4 }).unwrap()
 }
 
-/// The whole, and two blocks that part it.
+/// Meshes of the whole scene, and of the two blocks into which it is divided.
 fn meshes(space: &Space, refinement: &Refinement) -> [LocalEnvironment; 3] {
     let (mut low, mut high) = (space.grid.whole(), space.grid.whole());
     (low.high[0], high.low[0]) = (3, 3);
@@ -64,7 +64,7 @@ fn patches_cover_the_scene_and_are_found() {
             assert_eq!(mesh.patch_at(patch.polygon, patch.centre), Some(number));
             let outline = mesh.outline(&space, number);
             let mean = outline.iter().sum::<DVec3>() / outline.len() as f64;
-            // A convex outline has its mean within, and all within the patch's own slots.
+            // All of a convex outline is inside the slots of its patch.
             for corner in &outline {
                 let inside = mean + (*corner - mean) * 0.999;
                 assert_eq!(mesh.patch_at(patch.polygon, inside), Some(number), "{patch:?}");
@@ -73,9 +73,9 @@ fn patches_cover_the_scene_and_are_found() {
     }
 }
 
-/// Under the lamp patches are small, far away they are not; where all emit alike nothing is halved.
+/// Patches are small under the lamp and large far away. With uniform emission none is halved.
 #[test]
-fn it_is_fine_where_radiosity_changes_and_nowhere_else() {
+fn the_mesh_is_fine_only_where_radiosity_changes() {
     let space = room(false);
     let [mesh, ..] = meshes(&space, &refinement(&space, 0.03));
     let of_floor = |x: f64| {
@@ -97,14 +97,14 @@ fn less_error_takes_more_patches() {
     assert!(patches.is_sorted() && patches[3] > 2 * patches[0], "{patches:?}");
 }
 
-/// Rays in bundles and one by one find the same patches, whatever their size.
+/// Rays in bundles and one by one find the same patches, also of different sizes.
 #[test]
 fn bundles_shoot_as_single_rays_do() {
     let space = room(false);
     let [_, low, high] = meshes(&space, &refinement(&space, 0.05));
     let hemisphere = Hemisphere::new(HemisphereKind::Fibonacci, 512, true).unwrap();
     for (patch, of) in (0..).zip(&low.patches).step_by(5) {
-        let source = Emitter {
+        let emitter = Emitter {
             environment: 0,
             patch,
             polygon: of.polygon,
@@ -114,8 +114,8 @@ fn bundles_shoot_as_single_rays_do() {
             radiosity: Rgb::ONE,
         };
         let shot = |mesh, mask: &Mask| {
-            let [fast, plain] =
-                [shoot, shoot_plainly].map(|shoot| shoot(&space, mesh, &hemisphere, &source, mask));
+            let [fast, plain] = [shoot, shoot_plainly]
+                .map(|shoot| shoot(&space, mesh, &hemisphere, &emitter, mask));
             assert_eq!(fast, plain);
             fast
         };

@@ -1,17 +1,18 @@
-//! Tables, chairs and shelves. Parts that stand on something have no face there, so that no two
+//! Tables, chairs and bookcases. Where a part stands on another one it has no face, so that no two
 //! polygons coincide.
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-use crate::obj::{
+use crate::obj::Obj;
+use crate::palette::{BLUE, DARK_WOOD, GREEN, METAL, Material, RED, WOOD, YELLOW};
+use crate::shapes::{
     Cuboid,
     Facing::{self, Down, East, North, South, Up, West},
-    Obj, Span,
+    Span,
 };
-use crate::palette::{BLUE, DARK_WOOD, GREEN, METAL, Material, RED, WOOD, YELLOW};
 
-/// The least and greatest coordinate of something of that size around its centre.
+/// The interval of a given size around a centre.
 pub fn around(centre: i32, size: i32) -> Span {
     [centre - size / 2, centre - size / 2 + size]
 }
@@ -41,7 +42,7 @@ pub fn desk(obj: &mut Obj, x: Span, y: Span) {
     }
 }
 
-/// A chair whose sitter looks in the given direction: 27 polygons.
+/// A chair that faces in the given direction: 27 polygons.
 pub fn chair(obj: &mut Obj, cloth: &'static Material, [x, y]: [i32; 2], looks: Facing) {
     let seat = Cuboid { x: around(x, 440), y: around(y, 440), z: [430, 470] };
     obj.solid(cloth, seat);
@@ -57,7 +58,7 @@ pub fn chair(obj: &mut Obj, cloth: &'static Material, [x, y]: [i32; 2], looks: F
     legs(obj, seat.x, seat.y, 40, 430);
 }
 
-/// Four square legs at the corners, a little inside the edge.
+/// Four square legs at the corners, slightly inside the edges.
 fn legs(obj: &mut Obj, x: Span, y: Span, width: i32, height: i32) {
     let ends = |s: Span| [[s[0] + 10, s[0] + 10 + width], [s[1] - 10 - width, s[1] - 10]];
     for x in ends(x) {
@@ -67,14 +68,14 @@ fn legs(obj: &mut Obj, x: Span, y: Span, width: i32, height: i32) {
     }
 }
 
-/// A bookcase against a wall to the north, with three inner boards and a block of books on each
-/// and on its floor: 37 polygons.
+/// A bookcase against a wall to the north, with three inner boards and a block of books on each of
+/// them and on the lowest board: 37 polygons.
 pub fn bookcase(obj: &mut Obj, body: Cuboid, rng: &mut ChaCha8Rng) {
     const BOARD: i32 = 30;
     const LEVELS: i32 = 4;
     let Cuboid { x, z, .. } = body;
     let inside = [x[0] + BOARD, x[1] - BOARD];
-    // The back board stands between the hollow and the wall: in one plane they would fight.
+    // The back board is between the interior and the wall, so that they are not in the same plane.
     let y = [body.y[0], body.y[1] - BOARD];
     let hollow = Cuboid { x: inside, y, z };
     obj.faces(&DARK_WOOD, body, &[East, West, Up]);
@@ -88,7 +89,8 @@ pub fn bookcase(obj: &mut Obj, body: Cuboid, rng: &mut ChaCha8Rng) {
     for level in 0..=LEVELS {
         let under = if level == LEVELS { z[1] - BOARD } else { z[0] + level * pitch };
         let board = Cuboid { x: inside, y, z: [under, under + BOARD] };
-        // The lowest board's underside lies on the floor, the highest one's top is the body's.
+        // The underside of the lowest board is on the floor. The top of the highest one is the top
+        // of the body.
         let visible = match level {
             0 => &front[..2],
             LEVELS => &[South, Down],
@@ -101,7 +103,7 @@ pub fn bookcase(obj: &mut Obj, body: Cuboid, rng: &mut ChaCha8Rng) {
     }
 }
 
-/// Books side by side, seen as one block.
+/// Books side by side, as one block.
 fn books(obj: &mut Obj, hollow: Cuboid, floor: i32, rng: &mut ChaCha8Rng) {
     let cloth = [&RED, &BLUE, &GREEN, &YELLOW][rng.random_range(0..4)];
     let room = hollow.x[1] - hollow.x[0];

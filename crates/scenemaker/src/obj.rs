@@ -1,126 +1,19 @@
-//! Rectangles, boxes and walls with openings, written as OBJ text.
+//! Writes rectangles, boxes and walls with openings as OBJ text.
 //!
-//! Everything is in whole millimetres, so corners that should coincide do, and the text is the same
-//! on every machine.
+//! Whole millimetres make coincident corners exactly equal, and the text the same on every machine.
 
 use std::collections::BTreeMap;
 use std::fmt::{Display, Write};
 
-use crate::SceneText;
 use crate::palette::Material;
+use crate::scene_text::SceneText;
+use crate::shapes::{
+    Cuboid,
+    Facing::{self, Down, East, North, South, Up, West},
+    Opening, Point, Rect, Span, hollow,
+};
 
-/// A point, mm.
-pub type Point = [i32; 3];
-
-/// From the lesser to the greater coordinate, mm.
-pub type Span = [i32; 2];
-
-/// The direction in which a rectangle faces.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Facing {
-    /// Towards greater x.
-    East,
-    /// Towards lesser x.
-    West,
-    /// Towards greater y.
-    North,
-    /// Towards lesser y.
-    South,
-    /// Towards greater z.
-    Up,
-    /// Towards lesser z.
-    Down,
-}
-
-use Facing::{Down, East, North, South, Up, West};
-
-/// An upright or level rectangle.
-#[derive(Clone, Copy, Debug)]
-pub struct Rect {
-    /// Where its front looks.
-    pub facing: Facing,
-    /// Its coordinate along the facing axis.
-    pub at: i32,
-    /// Its extent along the first remaining axis (x, or y if it faces east or west).
-    pub u: Span,
-    /// Its extent along the second remaining axis (z, or y if it is level).
-    pub v: Span,
-}
-
-impl Rect {
-    /// Corners, counter-clockwise seen from the front; the first edge runs along `u`.
-    fn corners(&self) -> [Point; 4] {
-        let ([u0, u1], [v0, v1]) = (self.u, self.v);
-        let plane = match self.facing {
-            East | South | Up => [[u0, v0], [u1, v0], [u1, v1], [u0, v1]],
-            West | North | Down => [[u1, v0], [u0, v0], [u0, v1], [u1, v1]],
-        };
-        plane.map(|[u, v]| match self.facing {
-            East | West => [self.at, u, v],
-            North | South => [u, self.at, v],
-            Up | Down => [u, v, self.at],
-        })
-    }
-}
-
-/// A hole in a wall: a door, a window, an arch.
-#[derive(Clone, Copy, Debug)]
-pub struct Opening {
-    /// Its extent along the wall.
-    pub along: Span,
-    /// Its extent in height.
-    pub z: Span,
-}
-
-/// A box.
-#[derive(Clone, Copy, Debug)]
-pub struct Cuboid {
-    /// Extent in x.
-    pub x: Span,
-    /// Extent in y.
-    pub y: Span,
-    /// Extent in z.
-    pub z: Span,
-}
-
-impl Cuboid {
-    /// The face that looks outward in the given direction.
-    pub fn outer(&self, facing: Facing) -> Rect {
-        let Cuboid { x, y, z } = *self;
-        match facing {
-            East => Rect { facing, at: x[1], u: y, v: z },
-            West => Rect { facing, at: x[0], u: y, v: z },
-            North => Rect { facing, at: y[1], u: x, v: z },
-            South => Rect { facing, at: y[0], u: x, v: z },
-            Up => Rect { facing, at: z[1], u: x, v: y },
-            Down => Rect { facing, at: z[0], u: x, v: y },
-        }
-    }
-
-    /// The face that looks inward in the given direction: a wall, floor or ceiling of the hollow.
-    pub fn inner(&self, facing: Facing) -> Rect {
-        Rect { facing, ..self.outer(facing.opposite()) }
-    }
-}
-
-impl Facing {
-    /// The four sides of an upright body.
-    pub const SIDES: [Facing; 4] = [East, West, North, South];
-
-    /// The other way along the same axis.
-    pub fn opposite(self) -> Facing {
-        match self {
-            East => West,
-            West => East,
-            North => South,
-            South => North,
-            Up => Down,
-            Down => Up,
-        }
-    }
-}
-
-/// An OBJ file in the making.
+/// An OBJ file under construction.
 #[derive(Default)]
 pub struct Obj {
     indices: BTreeMap<Point, usize>,
@@ -132,18 +25,18 @@ pub struct Obj {
 }
 
 impl Obj {
-    /// What follows belongs to an object of this name.
+    /// Starts an object. All faces that follow belong to it.
     pub fn object(&mut self, name: impl Display) {
         put(&mut self.faces, format_args!("o {name}\n"));
         self.current = None;
     }
 
-    /// A planar four-sided polygon, its corners counter-clockwise seen from the front.
+    /// Adds a planar four-sided polygon, with corners counter-clockwise seen from the front.
     pub fn quad(&mut self, material: &'static Material, corners: [Point; 4]) {
         self.polygon(material, &corners);
     }
 
-    /// A planar convex polygon, its corners counter-clockwise seen from the front.
+    /// Adds a planar convex polygon, with corners counter-clockwise seen from the front.
     pub fn polygon(&mut self, material: &'static Material, corners: &[Point]) {
         if self.current != Some(material.name) {
             put(&mut self.faces, format_args!("usemtl {}\n", material.name));
@@ -157,25 +50,26 @@ impl Obj {
         put(&mut self.faces, format_args!("f{vertices}\n"));
     }
 
-    /// A rectangle.
+    /// Adds a rectangle.
     pub fn rect(&mut self, material: &'static Material, rect: Rect) {
         self.quad(material, rect.corners());
     }
 
-    /// Those faces of a box that are named, looking outward.
+    /// Adds the named outer faces of a box.
     pub fn faces(&mut self, material: &'static Material, cuboid: Cuboid, faces: &[Facing]) {
         for &facing in faces {
             self.rect(material, cuboid.outer(facing));
         }
     }
 
-    /// A whole box.
+    /// Adds all outer faces of a box.
     pub fn solid(&mut self, material: &'static Material, cuboid: Cuboid) {
         self.faces(material, cuboid, &[East, West, North, South, Up, Down]);
     }
 
-    /// An upright rectangle less its openings, which must lie in it without overlap, in ascending
-    /// order: full-height pieces between openings, and what is left below and above each.
+    /// Adds a vertical rectangle with openings, which must be inside it, in ascending order and
+    /// without overlap. It becomes full-height pieces between openings, and pieces below and above
+    /// each opening.
     pub fn wall(&mut self, material: &'static Material, wall: Rect, openings: &[Opening]) {
         let [mut from, end] = wall.u;
         let [bottom, top] = wall.v;
@@ -193,8 +87,8 @@ impl Obj {
         piece([from, end], wall.v);
     }
 
-    /// What lines an opening through a wall: jambs, soffit and, where it is given, sill. The wall
-    /// faces along `facing` or the opposite way; `depth` is its extent on that axis.
+    /// Adds the lining of an opening through a wall: jambs, soffit and, if given, sill. The wall
+    /// faces in the direction `facing` or in the opposite one. `depth` is its extent on that axis.
     pub fn reveal(
         &mut self,
         lining: &'static Material,
@@ -216,7 +110,8 @@ impl Obj {
         }
     }
 
-    /// A recess in a wall that faces `facing`: its lining and, at its far end, a pane or a leaf.
+    /// Adds a recess in a wall that faces `facing`: its lining, and a pane or a door leaf at its
+    /// far end.
     pub fn recess(
         &mut self,
         [lining, back]: [&'static Material; 2],
@@ -229,7 +124,7 @@ impl Obj {
         self.rect(back, hollow(facing, depth, opening).inner(facing));
     }
 
-    /// The text of both files, each with `about` as its first line.
+    /// The text of both files. The first line of each is the comment `about`.
     pub fn into_text(self, name: &str, about: &str) -> SceneText {
         let head = format!("# {about}\n");
         let obj = format!(
@@ -253,22 +148,14 @@ impl Obj {
     }
 }
 
-/// The box that an opening cuts out of a wall of that depth.
-fn hollow(facing: Facing, depth: Span, Opening { along, z }: Opening) -> Cuboid {
-    match facing {
-        East | West => Cuboid { x: depth, y: along, z },
-        North | South | Up | Down => Cuboid { x: along, y: depth, z },
-    }
-}
-
-/// Millimetres printed as metres, exactly and no longer than need be.
+/// Formats millimetres as metres, exactly and without trailing zeros.
 fn metres(mm: i32) -> String {
     let sign = if mm < 0 { "-" } else { "" };
     let digits = format!("{sign}{}.{:03}", mm.abs() / 1000, mm.abs() % 1000);
     digits.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// Appends to a text.
+/// Appends formatted text.
 fn put(text: &mut String, words: std::fmt::Arguments<'_>) {
     text.write_fmt(words).expect("writing to a String does not fail");
 }
@@ -281,24 +168,5 @@ mod tests {
     fn metres_are_exact_and_short() {
         let printed = [0, 5, -30, 1200, -15_000, 16_800, 2057].map(metres);
         assert_eq!(printed, ["0", "0.005", "-0.03", "1.2", "-15", "16.8", "2.057"]);
-    }
-
-    #[test]
-    fn fronts_face_where_they_say() {
-        for facing in [East, West, North, South, Up, Down] {
-            let [a, b, c, _] = Rect { facing, at: 7, u: [1, 3], v: [2, 5] }.corners();
-            let edge = |p: Point, q: Point| [q[0] - p[0], q[1] - p[1], q[2] - p[2]];
-            let ([ux, uy, uz], [vx, vy, vz]) = (edge(a, b), edge(b, c));
-            let normal = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
-            let expected = match facing {
-                East => [6, 0, 0],
-                West => [-6, 0, 0],
-                North => [0, 6, 0],
-                South => [0, -6, 0],
-                Up => [0, 0, 6],
-                Down => [0, 0, -6],
-            };
-            assert_eq!(normal, expected, "{facing:?}");
-        }
     }
 }

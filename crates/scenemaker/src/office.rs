@@ -1,20 +1,21 @@
-//! "An office with tables, chairs and shelves. The scene contains two lights on the ceiling. It's an
-//! open scene with few occlusions." (section 5.1)
+//! "An office with tables, chairs and shelves. The scene contains two lights on the ceiling. It's
+//! an open scene with few occlusions." (§5.1)
 //!
-//! One long room: windows to the south; pairs of desks face to face down the middle, a meeting table
-//! at the east end, bookcases along the north wall.
+//! One long room: windows to the south, pairs of desks face to face along the middle, a meeting
+//! table at the east end, bookcases along the north wall.
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 use crate::furniture::{around, bookcase, chair, desk, leg_table};
-use crate::obj::{
-    Cuboid,
-    Facing::{Down, East, North, South, Up, West},
-    Obj, Opening, Rect, Span,
-};
+use crate::obj::Obj;
 use crate::palette::{
     BLUE, BLUE_WALL, CARPET, CEILING, DOOR, FRAME, GLASS, GREEN, LIGHT, RED, WALL, WARM_WALL, WOOD,
+};
+use crate::shapes::{
+    Cuboid,
+    Facing::{Down, East, North, South, Up, West},
+    Opening, Rect, Span,
 };
 use crate::stream::stream;
 
@@ -26,10 +27,10 @@ const WINDOW_DEPTH: i32 = 150;
 const DOOR_DEPTH: i32 = 100;
 /// Middle of each window along x, mm.
 const WINDOWS: [i32; 4] = [2100, 6300, 10_500, 14_700];
-/// Middle of each light along x, mm; both lie midway between south and north.
+/// Middle of each light along x, mm. Both are midway between south and north.
 const LIGHTS: [i32; 2] = [4200, 12_600];
-/// Size of a light, mm: eight patches of 0.6 m, whose borders lie on the planes that cut the scene
-/// 14 × 4.
+/// Size of a light, mm: eight patches of 0.6 m, whose edges are on the planes that divide the scene
+/// into 14 × 4 environments.
 const PANEL: [i32; 2] = [2400, 1200];
 /// How far a light hangs below the ceiling, mm.
 const DROP: i32 = 40;
@@ -96,7 +97,7 @@ fn lights(obj: &mut Obj) {
     }
 }
 
-/// Two desks face to face, each with its chair.
+/// Two desks face to face, each with a chair.
 fn desk_pair(obj: &mut Obj, number: usize, x: i32, chairs: &mut Chairs) {
     let middle = SIZE[1] / 2;
     let sides: [(Span, i32, _); 2] = [
@@ -121,7 +122,7 @@ fn meeting(obj: &mut Obj, chairs: &mut Chairs) {
     }
 }
 
-/// Chairs, which nobody puts back quite in line.
+/// Chairs, each moved by a random distance.
 struct Chairs {
     count: usize,
     rng: ChaCha8Rng,
@@ -133,7 +134,7 @@ impl Chairs {
         obj: &mut Obj,
         cloth: &'static crate::palette::Material,
         [x, y]: [i32; 2],
-        looks: crate::obj::Facing,
+        looks: crate::shapes::Facing,
     ) {
         self.count += 1;
         obj.object(format_args!("chair {}", self.count));

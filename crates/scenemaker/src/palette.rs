@@ -1,9 +1,9 @@
-//! Materials. Reflectances are typical of the surface named: white ceilings 0.75 to 0.8, painted
-//! walls 0.5 to 0.7, floors 0.2 to 0.4, wood and cloth 0.2 to 0.5; night stands behind the windows.
+//! Materials. Reflectances are typical for each surface: white ceilings 0.75 to 0.8, painted walls
+//! 0.5 to 0.7, floors 0.2 to 0.4, wood and cloth 0.2 to 0.5. Windows are nearly black, as at night.
 
 use std::fmt;
 
-/// What a surface does with light.
+/// Reflectance and emission of a surface.
 pub struct Material {
     /// Name in the MTL file.
     pub name: &'static str,
@@ -34,8 +34,8 @@ macro_rules! materials {
 /// A ceiling panel, slightly warm.
 pub static LIGHT: Material = Material { name: "light", kd: [0.7; 3], ke: [640.0, 600.0, 530.0] };
 
-/// The light of the Cornell box; its colours, and those of the walls, are what renderers commonly make
-/// of the published spectra.
+/// The light of the Cornell box. Its colours and those of the walls are the values that renderers
+/// commonly derive from the published spectra.
 pub static BOX_LIGHT: Material =
     Material { name: "box_light", kd: [0.78; 3], ke: [17.0, 12.0, 4.0] };
 

@@ -1,20 +1,21 @@
 //! "A set of 32 similar rooms. Four tables, four doors open onto next rooms and one light source
-//! compose a room. This is a symmetrical scene with many occlusions." (section 5.1)
+//! compose a room. This is a symmetrical scene with many occlusions." (§5.1)
 //!
-//! Eight by four equal rooms. Each takes half of the depth of its walls and doors, so the planes
-//! between rooms belong to none. An outer door ends in a closed leaf.
+//! Eight by four equal rooms. Each has half of the thickness of its walls and doors, so that no
+//! surface is in the planes between rooms. An outer door has a closed leaf.
 
 use crate::furniture::{around, column_table};
-use crate::obj::{
+use crate::obj::Obj;
+use crate::palette::{BLUE_WALL, CEILING, DOOR, FRAME, LIGHT, WARM_WALL, WOOD_FLOOR};
+use crate::shapes::{
     Cuboid,
     Facing::{self, Down, East, North, South, Up, West},
-    Obj, Opening, Rect,
+    Opening, Rect,
 };
-use crate::palette::{BLUE_WALL, CEILING, DOOR, FRAME, LIGHT, WARM_WALL, WOOD_FLOOR};
 
 /// Rooms along x and y.
 const GRID: [i32; 2] = [8, 4];
-/// From the middle of a wall to that of the next, mm.
+/// Distance from the middle of a wall to the middle of the next, mm.
 const PITCH: i32 = 5000;
 /// Half the thickness of a wall, mm.
 const HALF_WALL: i32 = 100;
@@ -22,13 +23,14 @@ const HALF_WALL: i32 = 100;
 const HEIGHT: i32 = 3000;
 /// Width and height of a door, mm.
 const DOORWAY: [i32; 2] = [1000, 2100];
-/// Tables of a room.
+/// Number of tables in a room.
 pub const TABLES: u32 = 4;
-/// Most tables of a room: of so many on a square of seven by seven, the tops still overhang the columns.
+/// Largest number of tables in a room: seven by seven, whose tops are still larger than their
+/// columns.
 pub const MOST_TABLES: u32 = 49;
-/// Size of the top of a table that has a room to itself, mm.
+/// Size of the top of a table that is alone in a room, mm.
 const TABLE: [i32; 2] = [2400, 1600];
-/// From the room's centre to each of the light's three tubes along y, mm.
+/// Positions of the three tubes of a light along y, from the centre of the room, mm.
 const TUBES: [i32; 3] = [-200, 0, 200];
 /// Length and width of a tube, mm: four patches of 0.3 m.
 const TUBE: [i32; 2] = [1200, 120];
@@ -46,6 +48,7 @@ pub fn draw(tables: u32) -> Obj {
     obj
 }
 
+/// Draws a room, its tables and its light.
 fn room(obj: &mut Obj, column: i32, row: i32, tables: u32) {
     let number = row * GRID[0] + column + 1;
     let cell = Cuboid {
@@ -62,7 +65,7 @@ fn room(obj: &mut Obj, column: i32, row: i32, tables: u32) {
         Up | Down => false,
     });
     let centre = [cell.x[0] + PITCH / 2, cell.y[0] + PITCH / 2];
-    // On the least square that holds them all, each as large as its share of the room allows.
+    // Tables are placed on the smallest square that holds all of them, and scaled down accordingly.
     let side = (1..).find(|side| side * side >= tables as i32).unwrap_or(1);
     for i in 0..tables as i32 {
         obj.object(format_args!("table {number}.{}", i + 1));
@@ -82,8 +85,8 @@ fn shell(obj: &mut Obj, cell: Cuboid, outer: impl Fn(Facing) -> bool) {
     let inside = |[a, b]: [i32; 2]| [a + HALF_WALL, b - HALF_WALL];
     let hollow = Cuboid { x: inside(cell.x), y: inside(cell.y), z: cell.z };
     obj.rect(&CEILING, hollow.inner(Down));
-    // Under an outer wall the floor runs on to the closed leaf, and serves as that door's sill: so
-    // all rooms have equally many polygons.
+    // Under an outer wall the floor extends to the closed door leaf and replaces its sill, so that
+    // all rooms have the same number of polygons.
     let mut floor = hollow;
     for side in Facing::SIDES.into_iter().filter(|&side| outer(side)) {
         match side {
@@ -95,7 +98,7 @@ fn shell(obj: &mut Obj, cell: Cuboid, outer: impl Fn(Facing) -> bool) {
     }
     obj.rect(&WOOD_FLOOR, floor.inner(Up));
     for side in Facing::SIDES {
-        // The wall on a room's east side faces west.
+        // The wall on the east side of a room faces west.
         let facing = side.opposite();
         let wall = hollow.inner(facing);
         let middle = (wall.u[0] + wall.u[1]) / 2;

@@ -1,15 +1,16 @@
-//! Small scenes on which methods are compared, since a dense system of their patches can be solved:
-//! an empty room, a corridor round a corner, two rooms with a hole between them, the Cornell box.
+//! Small scenes to compare methods on, for which the dense system of all patches can be solved: an
+//! empty room, a corridor with a corner, two rooms with a hole between them, the Cornell box.
 
-use crate::obj::{
+use crate::obj::Obj;
+use crate::palette::{BOX_GREEN, BOX_LIGHT, BOX_RED, BOX_WHITE, CEILING, LIGHT, STONE, WALL};
+use crate::shapes::{
     Cuboid,
     Facing::{self, Down, East, North, South, Up, West},
-    Obj, Opening, Point, Rect, Span,
+    Opening, Point, Rect, Span,
 };
-use crate::palette::{BOX_GREEN, BOX_LIGHT, BOX_RED, BOX_WHITE, CEILING, LIGHT, STONE, WALL};
 
 /// An empty room of 4 × 4 × 3 m with a light of 2 × 2 m in its ceiling. Its walls are divided at a
-/// height of 2 m, so that halving gives 320 square patches of half a metre.
+/// height of 2 m, so that halving gives 320 square patches of 0.5 m.
 pub fn room4() -> Obj {
     let mut obj = Obj::default();
     obj.object("room");
@@ -23,8 +24,8 @@ pub fn room4() -> Obj {
     obj
 }
 
-/// A corridor of two arms of 8 m, 2 m wide and 2.5 m high; the light is at the end of one, so all
-/// that the other gets has been reflected.
+/// A corridor with two arms of 8 m, 2 m wide and 2.5 m high. The light is at the end of one arm, so
+/// the other gets only reflected light.
 pub fn corridor() -> Obj {
     let [long, wide, high] = [8000, 2000, 2500];
     let mut obj = Obj::default();
@@ -44,7 +45,8 @@ pub fn corridor() -> Obj {
     obj
 }
 
-/// Two rooms of 4 × 4 × 3 m, one lit, and a hole of half a metre, one patch, in the wall between them.
+/// Two rooms of 4 × 4 × 3 m, one of them lit, with a hole of 0.5 m, one patch, in the wall between
+/// them.
 pub fn hole() -> Obj {
     let mut obj = Obj::default();
     let wall = [4000, 4200];
@@ -69,7 +71,7 @@ pub fn hole() -> Obj {
     obj
 }
 
-/// A ceiling, and a light set into it.
+/// A ceiling with a light set into it.
 fn ceiling_with_light(obj: &mut Obj, ceiling: Rect, u: Span, v: Span) {
     obj.wall(&CEILING, ceiling, &[Opening { along: u, z: v }]);
     obj.object("light");
@@ -80,9 +82,9 @@ fn ceiling_with_light(obj: &mut Obj, ceiling: Rect, u: Span, v: Span) {
 const DEPTH: i32 = 5592;
 const HEIGHT: i32 = 5488;
 
-/// The Cornell box, after its coordinates as measured and published by Cornell's Program of Computer
-/// Graphics ("Cornell Box Data"): in tenths of their millimetres, taken for whole ones here, so that
-/// the box is some 5.5 m wide. Its front is open, as theirs.
+/// The Cornell box, from the coordinates published by Cornell's Program of Computer Graphics
+/// ("Cornell Box Data"), enlarged ten times to a width of about 5.5 m. Its front is open, as in the
+/// original.
 pub fn cornell() -> Obj {
     let mut obj = Obj::default();
     obj.object("floor");
@@ -101,7 +103,7 @@ pub fn cornell() -> Obj {
     obj.object("right wall");
     obj.quad(&BOX_GREEN, turned([[0, 0, DEPTH], [0, 0, 0], [0, HEIGHT, 0], [0, HEIGHT, DEPTH]]));
     obj.object("left wall");
-    // Its corners do not lie in one plane.
+    // Its corners are not in one plane, so it is two triangles.
     let left = turned([[5528, 0, 0], [5496, 0, DEPTH], [5560, HEIGHT, DEPTH], [5560, HEIGHT, 0]]);
     obj.polygon(&BOX_RED, &[left[0], left[1], left[2]]);
     obj.polygon(&BOX_RED, &[left[2], left[3], left[0]]);
@@ -110,7 +112,7 @@ pub fn cornell() -> Obj {
     obj
 }
 
-/// A block on the floor: the corners of its top, in Cornell's x and z, and its height.
+/// A block on the floor, given by the corners of its top in Cornell's x and z and by its height.
 fn block(obj: &mut Obj, name: &str, top: [[i32; 2]; 4], height: i32) {
     obj.object(name);
     obj.quad(&BOX_WHITE, turned(top.map(|[x, z]| [x, height, z])));
@@ -121,7 +123,7 @@ fn block(obj: &mut Obj, name: &str, top: [[i32; 2]; 4], height: i32) {
     }
 }
 
-/// From Cornell's axes, y up and z away from the viewer, to ours.
+/// Converts corners from Cornell's axes (y up, z away from the viewer) to those used here.
 fn turned(corners: [Point; 4]) -> [Point; 4] {
     corners.map(|[x, y, z]| [x, DEPTH - z, y])
 }

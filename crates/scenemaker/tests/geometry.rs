@@ -1,4 +1,5 @@
-//! What holds of the scenes under any seed: sound polygons, nothing coincident, no gap, even lights.
+//! Properties of the scenes for any seed: valid polygons, no coincident ones, no gaps, equal
+//! lights.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
 
@@ -13,8 +14,8 @@ use scenemaker::{FLOORS, MOST_TABLES, SceneKind, SceneText, make, make_building,
 
 const SEEDS: [u64; 3] = [1996, 7, u64::MAX];
 
-/// A scene as any program would read it, with nothing to remark on. World coordinates are local
-/// ones plus the scene's origin.
+/// Reads a scene as any program would, without warnings. World coordinates are local coordinates
+/// plus the origin of the scene.
 fn load(kind: SceneKind, seed: u64) -> Scene {
     read(&make(kind, seed))
 }
@@ -31,15 +32,15 @@ fn read(SceneText { name, obj, mtl }: &SceneText) -> Scene {
     scene
 }
 
-/// The three scenes under every seed, the lowest building, and one that begins anew above its fifth
-/// floor.
+/// Calls `check` with the three scenes for every seed, with other numbers of tables and floors (the
+/// fewest floors, and a number that repeats the sequence of floors), and with small scenes.
 fn each(mut check: impl FnMut(SceneKind, u64, &Scene)) {
     for kind in SceneKind::PAPER {
         for seed in SEEDS {
             check(kind, seed, &load(kind, seed));
         }
     }
-    // Rooms with other numbers of tables; the seed changes nothing there.
+    // The seed has no effect on rooms.
     for tables in [0, 1, 7, MOST_TABLES] {
         check(SceneKind::Rooms, 1, &read(&make_rooms(tables, 1)));
     }
@@ -70,12 +71,12 @@ fn same_seed_same_bytes() {
     }
     for kind in [SceneKind::Office, SceneKind::Building] {
         let faces = |seed| make(kind, seed).obj.lines().skip(3).collect::<String>();
-        assert_ne!(faces(5), faces(6), "{kind}: the seed must matter");
+        assert_ne!(faces(5), faces(6), "{kind}: the seed has no effect");
     }
 }
 
 #[test]
-fn names_are_read_back() {
+fn names_parse_to_their_scenes() {
     for kind in SceneKind::all() {
         assert_eq!(kind.name().parse(), Ok(kind));
     }
@@ -83,7 +84,7 @@ fn names_are_read_back() {
     assert!(unknown.contains("\"offices\"") && unknown.contains("office, rooms, building, "));
 }
 
-/// So meshing knows no case but one, and a patch is as large as it looks.
+/// Meshing then divides all polygons into equal rectangular patches.
 #[test]
 fn all_polygons_are_rectangles() {
     each(|kind, seed, scene| {
@@ -99,9 +100,9 @@ fn all_polygons_are_rectangles() {
     });
 }
 
-/// No two level or upright polygons lie in one plane, face the same way and overlap.
+/// No two axis-aligned polygons in the same plane that face the same way overlap.
 #[test]
-fn nothing_coincides() {
+fn no_polygons_coincide() {
     each(|kind, seed, scene| {
         let mut planes: BTreeMap<[i64; 4], Vec<[DVec2; 2]>> = BTreeMap::new();
         for polygon in &scene.polygons {
@@ -132,9 +133,10 @@ fn nothing_coincides() {
     });
 }
 
-/// From anywhere under a light every ray ends on some polygon's front: the slow, obvious search.
+/// Rays from points below lights end at the front of a polygon. All polygons are tested: slow and
+/// simple.
 #[test]
-fn no_ray_escapes_or_meets_a_back() {
+fn no_ray_escapes_or_hits_a_back() {
     each(|kind, seed, scene| {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let lights: Vec<DVec3> = lights(scene).map(|light| centre(scene, light)).collect();
@@ -150,7 +152,7 @@ fn no_ray_escapes_or_meets_a_back() {
     });
 }
 
-/// The object first hit, and the cosine between its normal and the ray.
+/// The first object hit, and the cosine between its normal and the ray.
 fn nearest(scene: &Scene, from: DVec3, towards: DVec3) -> Option<(&str, f64)> {
     let mut best = (f64::INFINITY, None);
     for polygon in &scene.polygons {
@@ -171,7 +173,7 @@ fn nearest(scene: &Scene, from: DVec3, towards: DVec3) -> Option<(&str, f64)> {
 }
 
 #[test]
-fn lights_are_alike_and_hang_below_ceilings() {
+fn lights_are_equal_and_face_down() {
     each(|kind, seed, scene| {
         let first = lights(scene).next().unwrap();
         for light in lights(scene) {
@@ -196,9 +198,9 @@ fn rooms_are_equal() {
     assert!(counts.values().all(|count| Some(count) == counts.values().next()), "{counts:?}");
 }
 
-/// Two floors are the fewest that stairs can join; five are the paper's.
+/// Stairs need at least two floors. Five floors are the building of the paper.
 #[test]
-fn a_building_may_have_other_floors() {
+fn a_building_can_have_other_numbers_of_floors() {
     assert!(make_building(FLOORS.start() - 1, 1).is_none());
     assert!(make_building(FLOORS.end() + 1, 1).is_none());
     let faces = |text: &SceneText| text.obj.lines().skip(3).collect::<String>();
@@ -209,15 +211,15 @@ fn a_building_may_have_other_floors() {
         text.obj.lines().filter(|line| line.starts_with(start)).count()
     };
     assert_eq!(count(20, "o light"), 4_000);
-    // Walls differ in their windows; the top floor alone has a ceiling over its shafts.
+    // The numbers of windows differ, and only the top floor has ceilings over its shafts.
     let ratio = count(20, "f ") as f64 / count(5, "f ") as f64;
     assert!((ratio - 4.0).abs() < 0.1, "{ratio}");
 }
 
-/// One thousand lights whatever the walls; each floor has more than the one below; none is cut by
-/// the planes that quarter the building's length and halve its width.
+/// There are one thousand lights for any seed. Each floor has more than the one below. No light
+/// crosses the planes that quarter the length of the building and halve its width.
 #[test]
-fn the_buildings_lights_follow_their_rule() {
+fn lights_of_the_building_follow_their_rules() {
     for seed in SEEDS {
         let scene = load(SceneKind::Building, seed);
         let mut floors = [0; 5];

@@ -37,8 +37,8 @@ struct Node {
 
 const ITEM: u32 = 1 << 31;
 
-/// Stack of children to visit, the next one last. The upper half of an entry is the bits of the squared
-/// distance (for positive floats they sort as the numbers do), the lower half is the child.
+/// Stack of children to visit, the next one last. The upper half of an entry is the bits of the
+/// squared distance (for positive floats they sort as the numbers do), the lower half is the child.
 #[derive(Default)]
 pub(crate) struct VisitStack(Vec<u64>);
 
@@ -46,7 +46,8 @@ pub(crate) struct VisitStack(Vec<u64>);
 struct NarrowPyramid {
     apex: [f32; 3],
     outwards: [[f32; 3]; 4],
-    /// Largest distance, in metres, by which rounding can move a corner to the wrong side of a plane.
+    /// Largest distance, in metres, by which rounding can move a corner to the wrong side of a
+    /// plane.
     margin: f32,
 }
 
@@ -86,9 +87,10 @@ impl BoxTree {
         place as u32
     }
 
-    /// Visits the items whose boxes a pyramid meets, nearer boxes first. `visit` returns the distance
-    /// from the apex beyond which further items are not needed, or `None` to stop. Returns false if it
-    /// was stopped. `stack` is working memory, owned by the caller to avoid allocations.
+    /// Visits the items whose boxes a pyramid meets, nearer boxes first. `visit` returns the
+    /// distance from the apex beyond which further items are not needed, or `None` to stop. Returns
+    /// false if it was stopped. `stack` is working memory, owned by the caller to avoid
+    /// allocations.
     #[inline(always)]
     pub(crate) fn visit<S: Simd>(
         &self,
@@ -158,8 +160,8 @@ impl NarrowPyramid {
 }
 
 impl Node {
-    /// The children whose boxes meet a pyramid, not farther away than the square root of `limit`, one
-    /// bit each; and the squared distances of all boxes from the apex.
+    /// The children whose boxes meet a pyramid, not farther away than the square root of `limit`,
+    /// one bit each; and the squared distances of all boxes from the apex.
     #[inline(always)]
     fn meets<S: Simd>(
         &self,

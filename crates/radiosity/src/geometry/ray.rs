@@ -14,8 +14,8 @@ pub struct Ray {
 }
 
 impl Ray {
-    /// A ray. Direction components below `LEAST` are set to zero, so that a ray that starts on a plane
-    /// of the grid never multiplies zero by infinity.
+    /// A ray. Direction components below `LEAST` are set to zero, so that a ray that starts on a
+    /// plane of the grid never multiplies zero by infinity.
     pub fn new(origin: DVec3, direction: DVec3) -> Ray {
         let direction = direction.map(|d| if d.abs() < Ray::LEAST { 0.0 } else { d });
         Ray { origin, direction, inverse: direction.recip() }

@@ -1,10 +1,11 @@
 //! A tournament tree: the greatest of many values of which a few change at a time.
 
-/// A tournament tree: above the values is the greater of each pair, of each pair of pairs, and so on. Changing a
-/// value and finding the greatest one take logarithmic time.
+/// A tournament tree: above the values is the greater of each pair, of each pair of pairs, and so
+/// on. Changing a value and finding the greatest one take logarithmic time.
 #[derive(Clone, Debug)]
 pub struct Greatest {
-    /// The greatest value at 1, the values from `leaves` on. The children of `i` are at 2 i and 2 i + 1.
+    /// The greatest value at 1, the values from `leaves` on. The children of `i` are at 2 i and 2 i
+    /// + 1.
     tree: Vec<f64>,
     leaves: usize,
 }

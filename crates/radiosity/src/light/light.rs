@@ -4,7 +4,8 @@ use crate::mesh::{LocalEnvironment, Patch, Space};
 use crate::scene::Rgb;
 use crate::shoot::{Emitter, Shot};
 
-/// Radiosity and unshot power of the patches of one environment, and where the rest of the energy went.
+/// Radiosity and unshot power of the patches of one environment, and where the rest of the energy
+/// went.
 #[derive(Clone, Debug)]
 pub struct Light {
     /// Emitted and reflected power of each patch, shot or not, W: radiosity × area.
@@ -70,7 +71,8 @@ impl Light {
         }
     }
 
-    /// Updates the patches with the light of a shot, and returns the power that they reflect of it, W.
+    /// Updates the patches with the light of a shot, and returns the power that they reflect of it,
+    /// W.
     ///
     /// Paper: §3.3, one iteration of a progressive radiosity algorithm.
     pub fn receive(&mut self, emitter: &Emitter, shot: &Shot) -> Rgb {

@@ -1,7 +1,8 @@
 //! Mesh refinement: smaller patches where radiosity changes.
 //!
-//! A pilot solution with few rays, on patches of half the size, finds most of the light. The change of its
-//! radiosity from patch to patch gives the error of constant radiosity on patches of any size.
+//! A pilot solution with few rays, on patches of half the size, finds most of the light. The change
+//! of its radiosity from patch to patch gives the error of constant radiosity on patches of any
+//! size.
 
 use glam::DVec3;
 
@@ -14,8 +15,8 @@ use crate::shoot::{Hemisphere, HemisphereError, HemisphereKind};
 /// The accuracy wanted of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wanted {
-    /// Allowed error of constant radiosities on patches: root mean square by area, relative to the reflected
-    /// radiosity.
+    /// Allowed error of constant radiosities on patches: root mean square by area, relative to the
+    /// reflected radiosity.
     pub relative_l2: f64,
     /// Largest number of times that the edges of a patch are halved.
     pub most_halvings: u32,
@@ -33,7 +34,8 @@ impl Refinement {
     /// Number of rays of a shot of the pilot solution.
     pub const RAYS: u32 = 1_024;
 
-    /// Fraction of the emitted power that the pilot leaves unshot. It would be spread almost evenly.
+    /// Fraction of the emitted power that the pilot leaves unshot. It would be spread almost
+    /// evenly.
     const UNSHOT: f64 = 0.05;
 
     /// Largest number of shots of the pilot.
@@ -41,9 +43,9 @@ impl Refinement {
 
     /// Finds where patches of a size must be halved.
     ///
-    /// Choice C44: if radiosity changes by d along an edge of a patch, the mean square error is d²/12, and a
-    /// quarter of it after halving. Patches are halved, those with the largest gain per new patch first,
-    /// until the errors add up to at most the wanted one.
+    /// Choice C44: if radiosity changes by d along an edge of a patch, the mean square error is
+    /// d²/12, and a quarter of it after halving. Patches are halved, those with the largest gain
+    /// per new patch first, until the errors add up to at most the wanted one.
     ///
     /// # Errors
     /// None in practice: the hemisphere of the pilot is possible.
@@ -78,8 +80,8 @@ impl Refinement {
         LocalEnvironment::meshed(space, block, size, Some(&depth))
     }
 
-    /// How often a slot of a polygon with given edge lengths must be halved: the largest number needed
-    /// anywhere in it.
+    /// How often a slot of a polygon with given edge lengths must be halved: the largest number
+    /// needed anywhere in it.
     fn depth(&self, polygon: u32, slot: &[DVec3], edges: [f64; 2]) -> u32 {
         let Some(piece) = self.pilot.piece(polygon) else { return 0 };
         let Piece { u, v, .. } = self.pilot.pieces[piece as usize];
@@ -107,8 +109,8 @@ fn emission(scene: &Scene, polygon: u32) -> Rgb {
     scene.material_of(polygon).emission
 }
 
-/// Squared error of each patch of the pilot, if it were as large as those of the mesh to refine: twice as long
-/// and twice as wide.
+/// Squared error of each patch of the pilot, if it were as large as those of the mesh to refine:
+/// twice as long and twice as wide.
 fn errors(pilot: &LocalEnvironment, radiosity: &[Rgb]) -> Vec<f64> {
     // Sum and number of squared changes towards the neighbours along u and along v.
     let mut changes = vec![[(0.0, 0u32); 2]; pilot.patches.len()];
@@ -135,8 +137,8 @@ fn errors(pilot: &LocalEnvironment, radiosity: &[Rgb]) -> Vec<f64> {
     areas.zip(changes).map(|(area, [u, v])| area * 4.0 * (mean(u) + mean(v)) / 12.0).collect()
 }
 
-/// How often each patch must be halved so that the sum of the errors is within a budget, if possible. From one
-/// halving of a patch to the next, the gain per new patch falls to a sixteenth.
+/// How often each patch must be halved so that the sum of the errors is within a budget, if
+/// possible. From one halving of a patch to the next, the gain per new patch falls to a sixteenth.
 fn depths(errors: &[f64], budget: f64, most: u32) -> Vec<u32> {
     let most = most.min(MOST_HALVINGS - 1);
     let left = |error: f64, depth: u32| error / f64::from(4u32.pow(depth));

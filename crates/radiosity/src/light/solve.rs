@@ -1,12 +1,14 @@
-//! Progressive radiosity in one environment: the traditional approach of §5.2, without virtual interfaces.
+//! Progressive radiosity in one environment: the traditional approach of §5.2, without virtual
+//! interfaces.
 
 use super::greatest::Greatest;
 use super::light::Light;
 use crate::mesh::{LocalEnvironment, Space};
 use crate::shoot::{Hemisphere, Mask, shoot};
 
-/// Repeatedly shoots the patch with the most unshot power, until not more than the fraction `stop_below` of
-/// the emitted power is unshot or `most_shots` are done. Returns the light and the number of shots.
+/// Repeatedly shoots the patch with the most unshot power, until not more than the fraction
+/// `stop_below` of the emitted power is unshot or `most_shots` are done. Returns the light and the
+/// number of shots.
 ///
 /// `environment` must be the whole grid: light that leaves it is lost.
 pub fn solve(
@@ -19,7 +21,8 @@ pub fn solve(
     solve_watched(space, environment, hemisphere, stop_below, most_shots, |_| ())
 }
 
-/// Like [`solve`], but calls `watch` after each shot with the fraction of the emitted power that is unshot.
+/// Like [`solve`], but calls `watch` after each shot with the fraction of the emitted power that is
+/// unshot.
 pub fn solve_watched(
     space: &Space,
     environment: &LocalEnvironment,

@@ -3,16 +3,18 @@
 /// How many bits of a mask store the optical depth along the ray of a pixel.
 ///
 /// Choice C42: "Instead of using boolean values, an integer value could represent the percentage of
-/// absorption along a given direction" (§3.2). Here the integer counts steps of optical depth: they add
-/// up from environment to environment, and stay equally fine in thick media. The largest integer marks a
-/// pixel that is false. The depth is rounded to the nearest step each time a mask is sent on, which
-/// changes the remaining light by a factor of at most exp(±step/2). Beyond the last step, all light
-/// counts as absorbed.
+/// absorption along a given direction" (§3.2). Here the integer counts steps of optical depth: they
+/// add up from environment to environment, and stay equally fine in thick media. The largest
+/// integer marks a pixel that is false. The depth is rounded to the nearest step each time a mask
+/// is sent on, which changes the remaining light by a factor of at most exp(±step/2). Beyond the
+/// last step, all light counts as absorbed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DepthBits {
-    /// Steps of 1/32: an error of up to 1.6 % of the light per rounding, down to exp(-7.9) = 0.036 % of it.
+    /// Steps of 1/32: an error of up to 1.6 % of the light per rounding, down to exp(-7.9) = 0.036
+    /// % of it.
     Eight,
-    /// Steps of 1/4096: up to 0.012 % of the light per rounding, down to exp(-16) = 0.000011 % of it.
+    /// Steps of 1/4096: up to 0.012 % of the light per rounding, down to exp(-16) = 0.000011 % of
+    /// it.
     Sixteen,
 }
 

@@ -26,8 +26,8 @@ pub struct LocalEnvironment {
     pub(crate) leaves: Vec<Leaf>,
     /// Hierarchy over the bounds of the pieces.
     pub(crate) tree: BoxTree,
-    /// Smallest area by which a patch's power is divided to get its radiosity, m². The radiosity of a
-    /// sliver, from a few rays over hardly any area, would be meaningless.
+    /// Smallest area by which a patch's power is divided to get its radiosity, m². The radiosity of
+    /// a sliver, from a few rays over hardly any area, would be meaningless.
     pub(super) least_area: f64,
     pub(super) whole: Block,
 }
@@ -42,8 +42,8 @@ impl LocalEnvironment {
         }
     }
 
-    /// The patch of a polygon at a point where a ray hit its front. Every point that a ray can hit inside
-    /// this environment has one.
+    /// The patch of a polygon at a point where a ray hit its front. Every point that a ray can hit
+    /// inside this environment has one.
     pub fn patch_at(&self, polygon: u32, point: DVec3) -> Option<u32> {
         self.patch_of(self.piece(polygon)?, point)
     }

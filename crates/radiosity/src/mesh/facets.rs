@@ -19,8 +19,8 @@ pub(crate) struct Facet {
     pub(crate) rectangle: Option<[(f64, f64); 2]>,
 }
 
-/// The half-plane of an edge in the projected polygon: inside where `a·p + b·q + c`, in metres of the
-/// projection, is not negative.
+/// The half-plane of an edge in the projected polygon: inside where `a·p + b·q + c`, in metres of
+/// the projection, is not negative.
 pub(crate) struct Edge {
     pub(crate) a: f64,
     pub(crate) b: f64,
@@ -29,10 +29,10 @@ pub(crate) struct Edge {
 
 /// The polygons of a scene in the form that ray tests read.
 ///
-/// Whether and where a ray hits a polygon is computed from the whole input polygon alone, so the result is
-/// the same to the bit for every decomposition. Edges are widened by the tolerance of the scene (1e-9 of its
-/// diagonal). That is far more than rounding, so that there are no gaps between neighbours, and too little
-/// to change the light.
+/// Whether and where a ray hits a polygon is computed from the whole input polygon alone, so the
+/// result is the same to the bit for every decomposition. Edges are widened by the tolerance of the
+/// scene (1e-9 of its diagonal). That is far more than rounding, so that there are no gaps between
+/// neighbours, and too little to change the light.
 pub struct Facets {
     facets: Vec<Facet>,
     edges: Vec<Edge>,
@@ -82,7 +82,8 @@ impl Facets {
         &self.edges[facet.first_edge as usize..][..facet.edges as usize]
     }
 
-    /// Distance at which a ray hits a facet, if it is larger than the tolerance and at most `limit`.
+    /// Distance at which a ray hits a facet, if it is larger than the tolerance and at most
+    /// `limit`.
     #[inline]
     pub fn hit(&self, facet: u32, ray: &Ray, limit: f64) -> Option<f64> {
         let t = self.meets_plane(facet, ray, limit)?;
@@ -91,7 +92,8 @@ impl Facets {
         self.edges(f).iter().all(|edge| self.within(f, edge, point)).then_some(t)
     }
 
-    /// Number of edges that are tested for a point in the plane of a facet: up to the first that excludes it.
+    /// Number of edges that are tested for a point in the plane of a facet: up to the first that
+    /// excludes it.
     pub(crate) fn edges_tested(&self, facet: u32, point: DVec3) -> u32 {
         let f = self.facet(facet);
         let inside = self.edges(f).iter().take_while(|edge| self.within(f, edge, point)).count();
@@ -113,8 +115,8 @@ impl Facets {
         if slope == 0.0 {
             return None;
         }
-        // Multiplied by the reciprocal, as in the grid: for a facet in a grid plane the two distances are
-        // then the same number.
+        // Multiplied by the reciprocal, as in the grid: for a facet in a grid plane the two
+        // distances are then the same number.
         let t = self.above(f, ray.origin) * (1.0 / slope);
         (t > self.tolerance && t <= limit).then_some(t)
     }

@@ -47,9 +47,9 @@ impl Block {
         (0..3).all(|a| (self.low[a]..self.high[a]).contains(&cell[a]))
     }
 
-    /// The side through which a ray leaves that never enters the block: the one towards the cell of its
-    /// origin. Only an emitter in a side of its own environment has such rays. If there is no environment
-    /// behind that side, the ray leaves the scene.
+    /// The side through which a ray leaves that never enters the block: the one towards the cell of
+    /// its origin. Only an emitter in a side of its own environment has such rays. If there is no
+    /// environment behind that side, the ray leaves the scene.
     pub(crate) fn side_towards(&self, start: [u32; 3], up_x: bool) -> Side {
         let beyond = |axis: usize| {
             let upper = start[axis] >= self.high[axis];
@@ -67,10 +67,11 @@ impl Block {
 
 /// A regular grid of cells over the whole scene, with the polygons that meet each cell.
 ///
-/// It does not depend on the decomposition: a local environment is a [`Block`] of its cells. A ray passes
-/// cells in the order of its plane crossings, sorted by (distance, axis). Each crossing is computed from the
-/// plane itself, never by adding increments. So the sequence of cells depends on the ray alone, environments
-/// only divide it into sections, and a ray along an edge or through a corner has exactly one owner.
+/// It does not depend on the decomposition: a local environment is a [`Block`] of its cells. A ray
+/// passes cells in the order of its plane crossings, sorted by (distance, axis). Each crossing is
+/// computed from the plane itself, never by adding increments. So the sequence of cells depends on
+/// the ray alone, environments only divide it into sections, and a ray along an edge or through a
+/// corner has exactly one owner.
 pub struct Grid {
     pub(crate) planes: [Vec<f64>; 3],
     /// Cells per metre.
@@ -81,7 +82,8 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// The planes of a grid of `cells` that just contains a scene. A flat scene gets some thickness.
+    /// The planes of a grid of `cells` that just contains a scene. A flat scene gets some
+    /// thickness.
     pub fn planes(scene: &Scene, cells: [u32; 3]) -> [Vec<f64>; 3] {
         let size = scene.bounds.size();
         let margin = size.map(|s| if s > 0.0 { 0.0 } else { 1e-3 * size.length() });
@@ -167,7 +169,8 @@ impl Grid {
         above.clamp(1, planes.len() - 1) as u32 - 1
     }
 
-    /// The planes, as axis and number, that [`Grid::cell_of`] tests to find the cell of a point, in order.
+    /// The planes, as axis and number, that [`Grid::cell_of`] tests to find the cell of a point, in
+    /// order.
     pub(crate) fn planes_tested(&self, point: DVec3) -> Vec<(usize, u32)> {
         let mut tested = Vec::new();
         for axis in 0..3 {
@@ -180,8 +183,8 @@ impl Grid {
         tested
     }
 
-    /// The cells that a polygon meets. They are widened by the tolerance of the scene, so that a polygon is
-    /// also found for a hit that rounding moves to the wrong side of a plane.
+    /// The cells that a polygon meets. They are widened by the tolerance of the scene, so that a
+    /// polygon is also found for a hit that rounding moves to the wrong side of a plane.
     fn cells_met(&self, scene: &Scene, polygon: &Polygon) -> Vec<u32> {
         let corners: Vec<DVec3> = scene.corners(polygon).collect();
         let widen = scene.tolerance();
@@ -203,12 +206,13 @@ impl Grid {
         std::array::from_fn(|axis| self.cell_at(axis, point[axis]))
     }
 
-    /// Starts the passage of a ray through a block, or returns `None` if the ray never enters it. `start` is
-    /// the cell of its origin.
+    /// Starts the passage of a ray through a block, or returns `None` if the ray never enters it.
+    /// `start` is the cell of its origin.
     #[inline]
     pub fn enter(&self, block: &Block, ray: &Ray, start: [u32; 3]) -> Option<Passage<'_>> {
         let mut cell = start;
-        // The ray is inside once it has crossed into the block on every axis: the last of these crossings.
+        // The ray is inside once it has crossed into the block on every axis: the last of these
+        // crossings.
         let mut entry = (f64::NEG_INFINITY, 0);
         for axis in 0..3 {
             let plane = if start[axis] < block.low[axis] {

@@ -1,5 +1,5 @@
-//! Meshing of a local environment: cuts its polygons out of the scene and divides them into quad-trees of
-//! patches.
+//! Meshing of a local environment: cuts its polygons out of the scene and divides them into
+//! quad-trees of patches.
 
 use glam::DVec3;
 
@@ -78,16 +78,16 @@ impl LocalEnvironment {
         let size = if emits { size.emitter } else { size.reflector };
         let mut piece = clip_to_box(&corners, &bounds);
         if piece.is_empty() {
-            // The polygon ends within the tolerance of the boundary. By rounding, a ray may still end
-            // here, so a patch is needed, even without area.
+            // The polygon ends within the tolerance of the boundary. By rounding, a ray may still
+            // end here, so a patch is needed, even without area.
             piece = clip_to_box(&corners, &bounds.widened(space.scene.tolerance()));
             piece.iter_mut().for_each(|p| *p = p.clamp(bounds.min, bounds.max));
         }
         self.add_piece(id, &piece, &corners, polygon.plane.normal, size, depth);
     }
 
-    /// Meshes one convex piece: halves its sides until they are no longer than `size`, and then each slot as
-    /// often as `depth` requires.
+    /// Meshes one convex piece: halves its sides until they are no longer than `size`, and then
+    /// each slot as often as `depth` requires.
     fn add_piece(
         &mut self,
         id: u32,
@@ -151,8 +151,8 @@ impl LocalEnvironment {
         });
     }
 
-    /// Adds a patch for each leaf that has one, and enters it in its slots. All other slots get the nearest
-    /// patch.
+    /// Adds a patch for each leaf that has one, and enters it in its slots. All other slots get the
+    /// nearest patch.
     fn push_leaves(&mut self, leaves: &[(Leaf, Option<Patch>)], [nu, nv]: [u32; 2], kept: bool) {
         let first = self.patches.len() as u32;
         let mut of_slot = vec![None; (nu * nv) as usize];
@@ -179,8 +179,8 @@ impl LocalEnvironment {
     }
 }
 
-/// Whether a polygon is in a side of the box and faces outwards. Rays inside the box can only hit its back;
-/// its front belongs to the neighbour.
+/// Whether a polygon is in a side of the box and faces outwards. Rays inside the box can only hit
+/// its back; its front belongs to the neighbour.
 fn shows_only_its_back(polygon: &Polygon, corners: &[DVec3], low: DVec3, high: DVec3) -> bool {
     (0..3).any(|axis| {
         let normal = polygon.plane.normal[axis];

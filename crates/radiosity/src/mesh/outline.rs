@@ -9,8 +9,8 @@ use super::space::Space;
 use crate::geometry::{area_and_centroid, clip_to_box, clip_to_slab};
 
 impl LocalEnvironment {
-    /// Corners of a patch, counter-clockwise seen from the front, metres: the part of its polygon inside its
-    /// slots and this environment. Empty for a patch without area.
+    /// Corners of a patch, counter-clockwise seen from the front, metres: the part of its polygon
+    /// inside its slots and this environment. Empty for a patch without area.
     pub fn outline(&self, space: &Space, patch: u32) -> Vec<DVec3> {
         let Patch { area, polygon, .. } = self.patches[patch as usize];
         let Some(piece) = self.piece(polygon).filter(|_| area > 0.0) else { return Vec::new() };

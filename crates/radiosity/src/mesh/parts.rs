@@ -1,5 +1,5 @@
-//! A patch divided into several emitters. Shooting only from its centre is inaccurate for surfaces close to
-//! it.
+//! A patch divided into several emitters. Shooting only from its centre is inaccurate for surfaces
+//! close to it.
 
 use glam::DVec3;
 
@@ -18,8 +18,8 @@ pub struct Part {
 }
 
 impl LocalEnvironment {
-    /// Divides a patch into `along` parts in both directions. Parts without area are left out. If none
-    /// remain, the result is the patch itself.
+    /// Divides a patch into `along` parts in both directions. Parts without area are left out. If
+    /// none remain, the result is the patch itself.
     pub fn parts(&self, space: &Space, patch: u32, along: u32) -> Vec<Part> {
         let whole = Part { centre: self.patches[patch as usize].centre, share: 1.0 };
         let outline = if along > 1 { self.outline(space, patch) } else { Vec::new() };
@@ -42,8 +42,8 @@ impl LocalEnvironment {
         parts.filter(|part| part.share > 0.0).collect()
     }
 
-    /// Number of parts in both directions, 1 to `most`, so that no polygon in front of the patch is nearer
-    /// to its centre than `edges` times the longer edge of a part.
+    /// Number of parts in both directions, 1 to `most`, so that no polygon in front of the patch is
+    /// nearer to its centre than `edges` times the longer edge of a part.
     ///
     /// All polygons of the scene count, also hidden ones, so that the result does not depend on the
     /// decomposition.
@@ -63,7 +63,8 @@ impl LocalEnvironment {
         }
     }
 
-    /// Distance from the centre of a patch to the nearest polygon in front of it, if within `reach`.
+    /// Distance from the centre of a patch to the nearest polygon in front of it, if within
+    /// `reach`.
     fn nearest_in_front(&self, space: &Space, patch: u32, reach: f64) -> Option<f64> {
         let scene = &space.scene;
         let patch = &self.patches[patch as usize];

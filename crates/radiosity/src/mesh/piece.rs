@@ -4,9 +4,9 @@ use glam::DVec3;
 
 /// The part of one polygon inside an environment, with its quad-tree of patches.
 ///
-/// The tree is stored as 2^i × 2^j equal slots, as small as its smallest leaves. A larger leaf covers
-/// several slots; without refinement all leaves are one slot. A polygon of which only the back faces the
-/// environment has no slots.
+/// The tree is stored as 2^i × 2^j equal slots, as small as its smallest leaves. A larger leaf
+/// covers several slots; without refinement all leaves are one slot. A polygon of which only the
+/// back faces the environment has no slots.
 #[derive(Default)]
 pub(crate) struct Piece {
     pub(super) polygon: u32,

@@ -27,8 +27,8 @@ impl Space {
     }
 }
 
-/// Moves vertices within the tolerance of a grid plane exactly onto it. A polygon is then either in a grid
-/// plane, and a ray crosses both at exactly the same distance, or clearly outside of it.
+/// Moves vertices within the tolerance of a grid plane exactly onto it. A polygon is then either in
+/// a grid plane, and a ray crosses both at exactly the same distance, or clearly outside of it.
 fn snap(scene: &mut Scene, planes: &[Vec<f64>; 3]) {
     let tolerance = scene.tolerance();
     for vertex in &mut scene.vertices {

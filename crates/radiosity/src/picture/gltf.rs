@@ -15,13 +15,13 @@ const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
 impl Mesh<'_> {
-    /// A binary glTF file of the mesh with radiosity `light`, W/m², at its vertices and the origin of the scene
-    /// at `origin`, metres. Also returns the radiosity shown as middle grey. The file contains a rotation,
-    /// since the upward axis is z here and y in glTF.
+    /// A binary glTF file of the mesh with radiosity `light`, W/m², at its vertices and the origin
+    /// of the scene at `origin`, metres. Also returns the radiosity shown as middle grey. The file
+    /// contains a rotation, since the upward axis is z here and y in glTF.
     ///
-    /// Vertices have the attributes `COLOR_0`, the linear brightness that a picture with this exposure and
-    /// tone would show (viewers apply the sRGB transfer function), and `_RADIOSITY`, W/m². Viewers do not
-    /// light the material again (`KHR_materials_unlit`).
+    /// Vertices have the attributes `COLOR_0`, the linear brightness that a picture with this
+    /// exposure and tone would show (viewers apply the sRGB transfer function), and `_RADIOSITY`,
+    /// W/m². Viewers do not light the material again (`KHR_materials_unlit`).
     pub fn to_glb(
         &self,
         light: &[Rgb],

@@ -52,8 +52,9 @@ pub struct PictureError {
 
 /// Draws what the camera sees.
 ///
-/// Polygons are visible only from their fronts, so that a camera above a room sees through its ceiling.
-/// `colour` returns the radiosity, W/m², of a polygon (by its index) at a point (local coordinates).
+/// Polygons are visible only from their fronts, so that a camera above a room sees through its
+/// ceiling. `colour` returns the radiosity, W/m², of a polygon (by its index) at a point (local
+/// coordinates).
 ///
 /// # Errors
 /// A picture without pixels or with more than 8192 pixels along a side.
@@ -103,8 +104,8 @@ fn encode_pixels(samples: &[Sample], width: usize, shown: impl Fn(Vec3) -> Rgb) 
     rgb
 }
 
-/// Simple lighting for a scene without a solution: lights glow, and all other surfaces are shaded by their
-/// orientation, so that the faces of a box differ.
+/// Simple lighting for a scene without a solution: lights glow, and all other surfaces are shaded
+/// by their orientation, so that the faces of a box differ.
 pub fn studio_light(scene: &Scene) -> impl Fn(u32, DVec3) -> Rgb {
     let sun = DVec3::new(0.45, -0.25, 0.8);
     move |polygon, _| {

@@ -1,5 +1,5 @@
-//! Closes seams between patches of different sizes: corners of small patches that are on edges of large patches
-//! become corners of both (T-junctions are removed).
+//! Closes seams between patches of different sizes: corners of small patches that are on edges of
+//! large patches become corners of both (T-junctions are removed).
 
 use glam::DVec3;
 

@@ -15,11 +15,12 @@ pub enum Exposure {
 /// How brightness above middle grey is compressed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Tone {
-    /// Reinhard et al. 2002, equation 4, applied to the luminance, so that hues do not change. Six times middle
-    /// grey is white.
+    /// Reinhard et al. 2002, equation 4, applied to the luminance, so that hues do not change. Six
+    /// times middle grey is white.
     #[default]
     Reinhard,
-    /// Proportional, with middle grey at 0.18, clipped at 1. Radiosities can be read back from the picture.
+    /// Proportional, with middle grey at 0.18, clipped at 1. Radiosities can be read back from the
+    /// picture.
     Linear,
 }
 
@@ -47,8 +48,9 @@ fn luminance(rgb: Rgb) -> f64 {
     rgb.dot(Rgb::new(0.2126, 0.7152, 0.0722))
 }
 
-/// The weighted geometric mean of the luminance of radiosities, W/m², used as middle grey. Values are at least
-/// a twentieth of the arithmetic mean; otherwise dark rooms would make the others too bright.
+/// The weighted geometric mean of the luminance of radiosities, W/m², used as middle grey. Values
+/// are at least a twentieth of the arithmetic mean; otherwise dark rooms would make the others too
+/// bright.
 pub(crate) fn geometric_mean(seen: &(impl Iterator<Item = (Rgb, f64)> + Clone)) -> f64 {
     let weight: f64 = seen.clone().map(|(_, weight)| weight).sum();
     let seen = || seen.clone().map(|(rgb, weight)| (luminance(rgb), weight));

@@ -1,4 +1,5 @@
-//! A mesh of triangles with radiosity at the vertices, built from patches, for pictures and other viewers.
+//! A mesh of triangles with radiosity at the vertices, built from patches, for pictures and other
+//! viewers.
 
 use std::collections::BTreeMap;
 
@@ -12,8 +13,8 @@ use crate::scene::{Polygon, Rgb, Scene};
 /// How radiosity varies over a patch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Shading {
-    /// A corner has the mean, weighted by area, of the patches of the same plane, object and material that
-    /// meet there. The middle of a patch has the mean along its edges.
+    /// A corner has the mean, weighted by area, of the patches of the same plane, object and
+    /// material that meet there. The middle of a patch has the mean along its edges.
     #[default]
     Smooth,
     /// Constant radiosity on each patch.
@@ -71,7 +72,8 @@ impl<'a> Mesh<'a> {
         self.fans.iter().flatten().flat_map(|fan| triangles(fan))
     }
 
-    /// Radiosity of the vertices, W/m², from the radiosities of the patches, by environment and patch.
+    /// Radiosity of the vertices, W/m², from the radiosities of the patches, by environment and
+    /// patch.
     pub fn light(&self, radiosity: &[Vec<Rgb>]) -> Vec<Rgb> {
         let mut sums = vec![(Rgb::ZERO, 0.0); self.vertices.positions.len()];
         let patches = self.environments.iter().flat_map(|e| &e.patches);
@@ -93,14 +95,14 @@ impl<'a> Mesh<'a> {
         light
     }
 
-    /// Vertices of each patch, environment after environment: its middle, then its corners. Empty for a patch
-    /// without area.
+    /// Vertices of each patch, environment after environment: its middle, then its corners. Empty
+    /// for a patch without area.
     pub fn fans(&self) -> impl Iterator<Item = &[u32]> {
         self.fans.iter().flatten().map(Vec::as_slice)
     }
 
-    /// Radiosity of a polygon at a point on its front, W/m², interpolated from `light` at the vertices. Zero
-    /// where there is no patch.
+    /// Radiosity of a polygon at a point on its front, W/m², interpolated from `light` at the
+    /// vertices. Zero where there is no patch.
     pub fn radiosity_at(&self, light: &[Rgb], polygon: u32, point: DVec3) -> Rgb {
         let homes = &self.homes[polygon as usize];
         let here = |bounds: &Bounds| point.clamp(bounds.min, bounds.max) == point;
@@ -128,8 +130,8 @@ fn triangles(fan: &[u32]) -> impl Iterator<Item = [u32; 3]> {
     corners.iter().zip(next).map(|(&corner, &next)| [fan[0], corner, next])
 }
 
-/// The mean of values at corners along the edges between them. It does not change if an edge is divided in
-/// two.
+/// The mean of values at corners along the edges between them. It does not change if an edge is
+/// divided in two.
 fn mean_along(corners: impl Iterator<Item = (DVec3, DVec3)> + Clone) -> DVec3 {
     let next = corners.clone().cycle().skip(1);
     let (mut sum, mut length) = (DVec3::ZERO, 0.0);
@@ -149,12 +151,12 @@ fn barycentric([a, b, c]: [DVec3; 3], point: DVec3) -> Option<DVec3> {
     (whole > 0.0).then(|| DVec3::new(part(b, c), part(c, a), part(a, b)) / whole)
 }
 
-/// Grid step for merging vertices, as a fraction of the diagonal of the scene: positions that round to the same
-/// step become one vertex.
+/// Grid step for merging vertices, as a fraction of the diagonal of the scene: positions that round
+/// to the same step become one vertex.
 const STEP: f64 = 1e-7;
 
-/// Patches share vertices if they have the same object, the same material and the same plane normal (in steps).
-/// At one point there is only one such plane.
+/// Patches share vertices if they have the same object, the same material and the same plane normal
+/// (in steps). At one point there is only one such plane.
 type Group = (u32, u32, [i64; 3]);
 
 /// The vertices of a mesh.

@@ -1,5 +1,5 @@
-//! Cleans the faces of a file into a scene: local coordinates, welded vertices, convex planar polygons
-//! with positive area, no duplicates.
+//! Cleans the faces of a file into a scene: local coordinates, welded vertices, convex planar
+//! polygons with positive area, no duplicates.
 
 use std::collections::BTreeSet;
 
@@ -12,21 +12,22 @@ use super::scene::{Face, Material, Plane, Polygon, Scene};
 use super::warnings::{WarningKind, Warnings};
 use crate::geometry::Bounds;
 
-/// A face is planar if no corner is farther from its plane than this fraction of the size of the face.
+/// A face is planar if no corner is farther from its plane than this fraction of the size of the
+/// face.
 const FLATNESS: f64 = 1e-6;
 
 impl Scene {
     /// Cleans faces into a scene, with warnings about what had to be repaired.
     ///
-    /// Coordinates become local to the centre of all corners, and those closer than 1e-9 of the diagonal
-    /// become equal. Faces that are not planar (to 1e-6 of their size) or not convex are divided into
-    /// triangles. Faces without area, and faces with the same corners and front as an earlier one, are
-    /// dropped. A face of a two-sided material is stored twice, back to back. Polygons in the same plane
-    /// share it to the bit.
+    /// Coordinates become local to the centre of all corners, and those closer than 1e-9 of the
+    /// diagonal become equal. Faces that are not planar (to 1e-6 of their size) or not convex are
+    /// divided into triangles. Faces without area, and faces with the same corners and front as an
+    /// earlier one, are dropped. A face of a two-sided material is stored twice, back to back.
+    /// Polygons in the same plane share it to the bit.
     ///
     /// # Errors
-    /// An impossible material, a coordinate that is not finite or beyond 1e12 m, an index out of range,
-    /// too many corners, or no face with an area.
+    /// An impossible material, a coordinate that is not finite or beyond 1e12 m, an index out of
+    /// range, too many corners, or no face with an area.
     pub fn new(
         faces: &[Face],
         materials: Vec<Material>,
@@ -96,10 +97,11 @@ fn check(faces: &[Face], materials: &[Material], objects: &[String]) -> Result<(
     Ok(())
 }
 
-/// Welds corners: returns distinct vertices, local to the origin, and the index of each corner's vertex.
+/// Welds corners: returns distinct vertices, local to the origin, and the index of each corner's
+/// vertex.
 ///
-/// On each axis coordinates closer than the tolerance become equal, so that faces in the same plane x = c
-/// share it exactly. Vertices are equal if their three coordinates are.
+/// On each axis coordinates closer than the tolerance become equal, so that faces in the same plane
+/// x = c share it exactly. Vertices are equal if their three coordinates are.
 fn weld(faces: &[Face], origin: DVec3, tolerance: f64) -> (Vec<DVec3>, Vec<u32>) {
     let points = || faces.iter().flat_map(|f| &f.points).map(|&p| p - origin);
     let levels: [Vec<f64>; 3] = std::array::from_fn(|axis| {
@@ -277,8 +279,9 @@ impl Cleaner<'_> {
             || self.points(ring).all(|p| (plane.normal.dot(p) - plane.offset).abs() <= slack)
     }
 
-    /// Whether the ring turns left at every corner and goes around once. It goes around once if each corner
-    /// is left of the first edge and the triangle fan from the first corner never turns back.
+    /// Whether the ring turns left at every corner and goes around once. It goes around once if
+    /// each corner is left of the first edge and the triangle fan from the first corner never turns
+    /// back.
     fn is_convex(&self, ring: &[u32], plane: Plane) -> bool {
         let left = |a: u32, b: u32, c: u32| {
             let (a, b, c) = (self.at(a), self.at(b), self.at(c));
@@ -292,7 +295,8 @@ impl Cleaner<'_> {
 
     /// Triangles that cover a ring, with the same front.
     fn triangles(&mut self, ring: &[u32], plane: Plane, place: impl FnOnce() -> String) -> Pieces {
-        // Projected along the largest component of the normal, so that the shape does not degenerate.
+        // Projected along the largest component of the normal, so that the shape does not
+        // degenerate.
         let facing = plane.normal.abs().max_position();
         let flat: Vec<[f64; 2]> =
             self.points(ring).map(|p| [p[(facing + 1) % 3], p[(facing + 2) % 3]]).collect();

@@ -5,9 +5,10 @@ use super::scene::{Plane, Polygon};
 /// Components of unit normals that differ by less count as equal.
 const NORMALS: f64 = 1e-9;
 
-/// Replaces planes that differ only by rounding by the plane of the largest polygon among them. A ray then
-/// meets all of them at exactly the same distance, so the rules for equal distances decide, not rounding.
-/// Axis-aligned polygons share their planes already, since corners are welded for each axis.
+/// Replaces planes that differ only by rounding by the plane of the largest polygon among them. A
+/// ray then meets all of them at exactly the same distance, so the rules for equal distances
+/// decide, not rounding. Axis-aligned polygons share their planes already, since corners are welded
+/// for each axis.
 pub(crate) fn share_planes(polygons: &mut [Polygon], tolerance: f64) {
     let slanted = |polygon: &Polygon| polygon.plane.normal.abs().max_element() < 1.0;
     let numbers: Vec<usize> = (0..polygons.len()).filter(|&i| slanted(&polygons[i])).collect();

@@ -70,8 +70,8 @@ impl Library {
     }
 }
 
-/// The lines that are used, checked: tobj reports no line numbers, ignores most invalid values and panics
-/// on a `Kd` with two numbers.
+/// The lines that are used, checked: tobj reports no line numbers, ignores most invalid values and
+/// panics on a `Kd` with two numbers.
 fn relevant_lines(path: &Path, text: &str) -> Result<String, SceneError> {
     let mut relevant = String::new();
     let mut name = String::new();

@@ -1,8 +1,8 @@
 //! Wavefront OBJ files, read with tobj.
 //!
-//! Used are `v`, `f`, `o`, `g`, `usemtl` and `mtllib`. All other lines are removed before tobj reads the
-//! text: it rejects files for errors that do not matter here, such as colours of only some vertices or a
-//! wrong index of a texture coordinate.
+//! Used are `v`, `f`, `o`, `g`, `usemtl` and `mtllib`. All other lines are removed before tobj
+//! reads the text: it rejects files for errors that do not matter here, such as colours of only
+//! some vertices or a wrong index of a texture coordinate.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -24,8 +24,8 @@ use super::warnings::{WarningKind, Warnings};
 /// ([`DEFAULT_REFLECTANCE`](crate::DEFAULT_REFLECTANCE)), one-sided and do not emit.
 ///
 /// # Errors
-/// A file that cannot be read or has invalid content. The message names file, line and value, and states
-/// what was expected.
+/// A file that cannot be read or has invalid content. The message names file, line and value, and
+/// states what was expected.
 pub fn load_obj(path: &Path) -> Result<(Scene, Warnings), SceneError> {
     load_obj_from(path, &|path| fs::read(path))
 }
@@ -111,8 +111,8 @@ struct Faces {
 }
 
 impl Faces {
-    /// Groups with the same name become one object. Faces without a material get the index after the last
-    /// material.
+    /// Groups with the same name become one object. Faces without a material get the index after
+    /// the last material.
     fn of(models: &[Model], materials: &[Material], text: &str) -> Faces {
         let mut all =
             Faces { faces: Vec::new(), objects: Vec::new(), warnings: Warnings::default() };
@@ -178,7 +178,8 @@ fn diagnose(path: &Path, text: &str, line: usize, error: LoadError) -> SceneErro
     text::wrong(path, Some(line), format!("\"{found}\": {error}; {expected}"))
 }
 
-/// The first face with a vertex that does not exist or, if there is none, that is defined after the face.
+/// The first face with a vertex that does not exist or, if there is none, that is defined after the
+/// face.
 fn wrong_index(text: &str) -> Option<(usize, String)> {
     let total = text.lines().filter(|line| is_vertex(line)).count() as i64;
     let search = |forward: bool| {

@@ -5,7 +5,8 @@ use glam::DVec3;
 use crate::geometry::Bounds;
 use crate::media::Medium;
 
-/// Red, green, blue: a reflectance (0 to 1), a radiosity (W/m²) or a power (W), depending on context.
+/// Red, green, blue: a reflectance (0 to 1), a radiosity (W/m²) or a power (W), depending on
+/// context.
 pub type Rgb = DVec3;
 
 /// How a surface reflects and emits light.
@@ -69,15 +70,15 @@ pub struct Face {
 pub struct Scene {
     /// Welded vertices, local to `origin`.
     pub vertices: Vec<DVec3>,
-    /// Clean polygons: convex, planar, with positive area, without duplicates. A two-sided face is stored
-    /// twice, back to back.
+    /// Clean polygons: convex, planar, with positive area, without duplicates. A two-sided face is
+    /// stored twice, back to back.
     pub polygons: Vec<Polygon>,
     /// Materials.
     pub materials: Vec<Material>,
     /// Names of objects and groups.
     pub objects: Vec<String>,
-    /// World position of the local origin: the centre of the bounds. Local coordinates stay exact to
-    /// nanometres even if the scene is far from the origin of the world.
+    /// World position of the local origin: the centre of the bounds. Local coordinates stay exact
+    /// to nanometres even if the scene is far from the origin of the world.
     pub origin: DVec3,
     /// Local bounds.
     pub bounds: Bounds,

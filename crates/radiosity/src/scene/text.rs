@@ -8,7 +8,8 @@ use super::error::SceneError;
 /// A function that reads the bytes of a file, from disk or from elsewhere.
 pub(crate) type Reader<'a> = &'a dyn Fn(&Path) -> io::Result<Vec<u8>>;
 
-/// Reads a file as text. Bytes that are not UTF-8 become U+FFFD, so that names in old encodings are accepted.
+/// Reads a file as text. Bytes that are not UTF-8 become U+FFFD, so that names in old encodings are
+/// accepted.
 pub(crate) fn read(path: &Path, reader: Reader) -> io::Result<String> {
     let bytes = reader(path)?;
     Ok(String::from_utf8_lossy(&bytes).trim_start_matches('\u{feff}').to_owned())

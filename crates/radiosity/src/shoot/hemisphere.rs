@@ -10,11 +10,12 @@ use crate::shoot::bundle::{Bundles, LANES, WIDTH};
 
 /// How the directions of a hemisphere are distributed.
 ///
-/// Choice C1: RR-3008 does not say how its hemisphere is divided into pixels. All sets but the hemicube are
-/// cosine-weighted, so that all pixels have the same form factor.
+/// Choice C1: RR-3008 does not say how its hemisphere is divided into pixels. All sets but the
+/// hemicube are cosine-weighted, so that all pixels have the same form factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HemisphereKind {
-    /// A Fibonacci spiral on the unit disc, projected up onto the hemisphere: the most even of these sets.
+    /// A Fibonacci spiral on the unit disc, projected up onto the hemisphere: the most even of
+    /// these sets.
     Fibonacci,
     /// The upper half of a cube around the emitter, weighted by delta form factors.
     Hemicube,
@@ -27,8 +28,8 @@ pub enum HemisphereKind {
 /// Directions over an emitter, and the form factor of each.
 #[derive(Clone, Debug)]
 pub struct Hemisphere {
-    /// Unit directions in the frame of the emitter, z along its normal. Neighbours are stored together: the 64
-    /// pixels of each word of a mask form a bundle.
+    /// Unit directions in the frame of the emitter, z along its normal. Neighbours are stored
+    /// together: the 64 pixels of each word of a mask form a bundle.
     pub directions: Vec<DVec3>,
     /// The same directions for the fast path.
     pub(crate) bundles: Bundles,
@@ -36,9 +37,11 @@ pub struct Hemisphere {
     pub weights: Vec<f64>,
     /// If all pixels have the same weight: the sums of 0, 1, 2, ... of them, added one by one.
     pub(crate) sums: Option<Vec<f64>>,
-    /// Whether the set is rotated about the normal by an angle derived from the position of the emitter.
+    /// Whether the set is rotated about the normal by an angle derived from the position of the
+    /// emitter.
     pub rotated: bool,
-    /// Whether it is oriented by the position of the emitter instead of the axes: see [`Hemisphere::by_axes`].
+    /// Whether it is oriented by the position of the emitter instead of the axes: see
+    /// [`Hemisphere::by_axes`].
     by_position: bool,
 }
 
@@ -58,8 +61,8 @@ pub struct HemisphereError {
 pub const MOST_PIXELS: u32 = 1 << 24;
 
 impl Hemisphere {
-    /// A hemisphere of `pixels` pixels. A hemicube uses the largest number, up to `pixels`, that fills its
-    /// faces.
+    /// A hemisphere of `pixels` pixels. A hemicube uses the largest number, up to `pixels`, that
+    /// fills its faces.
     ///
     /// # Errors
     /// A number of pixels that is not possible for this kind.
@@ -121,8 +124,9 @@ impl Hemisphere {
         Hemisphere { bundles, directions, weights, sums, rotated, by_position: true }
     }
 
-    /// The same directions, oriented by the coordinate axes. By default they are oriented by the position of
-    /// the emitter relative to the centre of the scene, so that a rotated scene gets the same rays, rotated.
+    /// The same directions, oriented by the coordinate axes. By default they are oriented by the
+    /// position of the emitter relative to the centre of the scene, so that a rotated scene gets
+    /// the same rays, rotated.
     pub fn by_axes(self) -> Hemisphere {
         Hemisphere { by_position: false, ..self }
     }
@@ -140,8 +144,8 @@ impl Hemisphere {
         }
     }
 
-    /// Tangent, bitangent and normal of an emitter. They depend only on its centre and its normal, so that
-    /// the receiver of a mask casts exactly the same rays.
+    /// Tangent, bitangent and normal of an emitter. They depend only on its centre and its normal,
+    /// so that the receiver of a mask casts exactly the same rays.
     pub fn frame(&self, centre: DVec3, normal: DVec3) -> [DVec3; 3] {
         let outwards = centre - normal * centre.dot(normal);
         let tangent = if self.by_position && outwards.length() > 1e-6 * centre.length() {
@@ -170,7 +174,8 @@ impl Hemisphere {
     }
 }
 
-/// A unit vector perpendicular to a normal, derived from the axis with the smallest component of it.
+/// A unit vector perpendicular to a normal, derived from the axis with the smallest component of
+/// it.
 fn perpendicular(normal: DVec3) -> DVec3 {
     let least = if normal.x.abs() <= normal.y.abs() && normal.x.abs() <= normal.z.abs() {
         DVec3::X
@@ -182,8 +187,9 @@ fn perpendicular(normal: DVec3) -> DVec3 {
     least.cross(normal).normalize()
 }
 
-/// Cosine and sine of an angle derived from coordinates. It is the direction of a pseudo-random point of the
-/// unit disc: this needs only exactly rounded operations, so that all machines compute the same bits.
+/// Cosine and sine of an angle derived from coordinates. It is the direction of a pseudo-random
+/// point of the unit disc: this needs only exactly rounded operations, so that all machines compute
+/// the same bits.
 fn angle_from(coordinates: &[f64]) -> (f64, f64) {
     let mut state = coordinates.iter().fold(0x9e37_79b9_7f4a_7c15, |state, coordinate| {
         scramble(state ^ (coordinate + 0.0).to_bits())
@@ -207,8 +213,8 @@ fn scramble(state: u64) -> u64 {
     z ^ (z >> 31)
 }
 
-/// Sorts pixels so that each run of 64, and in it each run of 8, is compact on the disc: recursively halves
-/// the longer extent at a multiple of 64 or 8.
+/// Sorts pixels so that each run of 64, and in it each run of 8, is compact on the disc:
+/// recursively halves the longer extent at a multiple of 64 or 8.
 fn group(pixels: &mut [u32], directions: &[DVec3]) {
     if pixels.len() <= LANES {
         pixels.sort_unstable();

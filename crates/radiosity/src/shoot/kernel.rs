@@ -16,14 +16,15 @@ use crate::shoot::bundle::{GridView, Nearest, Rays, WIDTH, Walk, find_patches};
 
 /// Casts the rays of all true pixels of `mask` from `emitter` through `environment`.
 ///
-/// Paper: §3.3, §4.2.3. A ray that hits an object clears its pixel; each neighbour gets a copy of the mask
-/// with the pixels whose rays enter it. For an emitter of another environment, `mask` has the pixels whose
-/// rays have not hit anything so far.
+/// Paper: §3.3, §4.2.3. A ray that hits an object clears its pixel; each neighbour gets a copy of
+/// the mask with the pixels whose rays enter it. For an emitter of another environment, `mask` has
+/// the pixels whose rays have not hit anything so far.
 ///
-/// The rays of one word of the mask form a bundle. First their nearest hits are found. Then they walk
-/// through the grid, to count the operations of the simulated processor. If the polygons are so small that
-/// a bundle meets too many of them, its rays are cast one by one. In a scene with participating media all
-/// rays are. [`shoot_plainly`](crate::shoot_plainly) is the simple version that gives the same result.
+/// The rays of one word of the mask form a bundle. First their nearest hits are found. Then they
+/// walk through the grid, to count the operations of the simulated processor. If the polygons are
+/// so small that a bundle meets too many of them, its rays are cast one by one. In a scene with
+/// participating media all rays are. [`shoot_plainly`](crate::shoot_plainly) is the simple version
+/// that gives the same result.
 #[doc(alias = "compute_illumination")]
 pub fn shoot(
     space: &Space,
@@ -72,8 +73,9 @@ fn shoot_on<S: Simd>(
     shot.tally.finish()
 }
 
-/// Number of polygons tested for a bundle before its rays are cast one by one. That is about two thirds of
-/// the number at which both cost the same, if a single ray is tested against a dozen polygons.
+/// Number of polygons tested for a bundle before its rays are cast one by one. That is about two
+/// thirds of the number at which both cost the same, if a single ray is tested against a dozen
+/// polygons.
 const MOST_POLYGONS: usize = 128;
 
 /// A shot in progress.
@@ -92,8 +94,8 @@ struct BundleShot<'a> {
 }
 
 impl BundleShot<'_> {
-    /// Tests the bundle against the polygons that it can meet, near ones first. Returns false if there are
-    /// too many.
+    /// Tests the bundle against the polygons that it can meet, near ones first. Returns false if
+    /// there are too many.
     #[inline(always)]
     fn find_nearest<S: Simd>(&mut self, simd: S, cast: u64) -> bool {
         let BundleShot { space, environment, own_piece, rays, nearest, stack, .. } = self;

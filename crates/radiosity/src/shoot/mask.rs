@@ -2,8 +2,9 @@
 
 use crate::media::DepthBits;
 
-/// One bit for each pixel of a hemisphere. True means that nothing has blocked the ray of the pixel so far.
-/// In a scene with participating media, each pixel also has an integer: the optical depth so far.
+/// One bit for each pixel of a hemisphere. True means that nothing has blocked the ray of the pixel
+/// so far. In a scene with participating media, each pixel also has an integer: the optical depth
+/// so far.
 ///
 /// Paper: §3.2, Figure 2.
 #[doc(alias = "Figure 2")]
@@ -36,8 +37,8 @@ impl Mask {
         Mask::of(vec![0; words_for(pixels)], pixels)
     }
 
-    /// A mask from its words, with the first pixel in the lowest bit of the first word. `None` if the number
-    /// of words does not fit the pixels or if a bit after the last pixel is set.
+    /// A mask from its words, with the first pixel in the lowest bit of the first word. `None` if
+    /// the number of words does not fit the pixels or if a bit after the last pixel is set.
     pub fn from_words(words: Vec<u64>, pixels: u32) -> Option<Mask> {
         let fits = words.len() == words_for(pixels);
         let spilled = words.last().is_some_and(|last| last & !last_word(pixels) != 0);
@@ -94,8 +95,9 @@ impl Mask {
         self.depths.as_deref().map_or(1.0, left)
     }
 
-    /// Makes a pixel true with the number of steps nearest to an optical depth, and returns the fraction of
-    /// light that is left. Beyond the last step the pixel stays false and nothing is left.
+    /// Makes a pixel true with the number of steps nearest to an optical depth, and returns the
+    /// fraction of light that is left. Beyond the last step the pixel stays false and nothing is
+    /// left.
     pub(crate) fn set_depth(&mut self, pixel: u32, depth: f64) -> f64 {
         if let Some(depths) = &mut self.depths {
             let Some(steps) = depths.bits.steps(depth) else { return 0.0 };
@@ -154,7 +156,8 @@ impl Mask {
         })
     }
 
-    /// Makes all pixels true that are true in `other`. Of two optical depths the smaller one is kept.
+    /// Makes all pixels true that are true in `other`. Of two optical depths the smaller one is
+    /// kept.
     pub fn merge(&mut self, other: &Mask) {
         if let (Some(mine), Some(theirs)) = (&mut self.depths, &other.depths) {
             for (mine, theirs) in mine.steps.iter_mut().zip(&theirs.steps) {

@@ -23,8 +23,8 @@ pub enum End {
     Leaves(Side),
 }
 
-/// Like [`shoot`](crate::shoot), one ray at a time, testing the polygons cell by cell. For scenes without
-/// participating media.
+/// Like [`shoot`](crate::shoot), one ray at a time, testing the polygons cell by cell. For scenes
+/// without participating media.
 pub fn shoot_plainly(
     space: &Space,
     environment: &LocalEnvironment,
@@ -62,7 +62,8 @@ pub(crate) fn cast_pixel(
     }
 }
 
-/// Follows one ray through an environment to the nearest hit or to the side through which it leaves.
+/// Follows one ray through an environment to the nearest hit or to the side through which it
+/// leaves.
 pub fn cast(
     space: &Space,
     environment: &LocalEnvironment,
@@ -90,8 +91,9 @@ pub fn cast(
     }
 }
 
-/// The nearest polygon that a ray hits inside a cell. Of polygons at the same distance, fronts precede backs,
-/// then the lower index decides: each point of coplanar surfaces belongs to one polygon.
+/// The nearest polygon that a ray hits inside a cell. Of polygons at the same distance, fronts
+/// precede backs, then the lower index decides: each point of coplanar surfaces belongs to one
+/// polygon.
 #[inline]
 fn nearest_hit(
     space: &Space,

@@ -8,8 +8,8 @@ use super::work::{Operation, Work};
 use crate::mesh::{LocalEnvironment, Side};
 use crate::scene::Rgb;
 
-/// Geometry and photometry of a patch that shoots: what other environments must know about it. Together with
-/// its visibility mask it is a source.
+/// Geometry and photometry of a patch that shoots: what other environments must know about it.
+/// Together with its visibility mask it is a source.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Emitter {
     /// Index of its environment.
@@ -28,8 +28,8 @@ pub struct Emitter {
     pub radiosity: Rgb,
 }
 
-/// Result of shooting an emitter through one environment. It depends only on geometry, so it can be stored
-/// and reused for any power.
+/// Result of shooting an emitter through one environment. It depends only on geometry, so it can be
+/// stored and reused for any power.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shot {
     /// Patches hit, in increasing order, and the form factor of each.
@@ -53,8 +53,8 @@ pub struct Shot {
 pub struct Outgoing {
     /// True for the pixels whose ray first leaves through this interface.
     ///
-    /// Choice C12: §4.2.3 says "hits the plane". With unbounded planes, one pixel would reach several
-    /// neighbours and its energy would be counted twice.
+    /// Choice C12: §4.2.3 says "hits the plane". With unbounded planes, one pixel would reach
+    /// several neighbours and its energy would be counted twice.
     pub mask: Mask,
     /// Sum of their form factors, reduced by participating media.
     pub form_factor: f64,
@@ -79,8 +79,8 @@ impl<'a> Tally<'a> {
         Tally { environment, mask, form_factors, outgoing: Default::default(), work: Work::NONE }
     }
 
-    /// Number of form factors: of each patch, of all backs, of what leaves the scene, and of what leaves
-    /// through each side to a neighbour.
+    /// Number of form factors: of each patch, of all backs, of what leaves the scene, and of what
+    /// leaves through each side to a neighbour.
     pub(crate) fn places(environment: &LocalEnvironment) -> usize {
         environment.patches.len() + 2 + Side::ALL.len()
     }
@@ -127,9 +127,9 @@ impl<'a> Tally<'a> {
     }
 }
 
-/// Counts the other operations of §4.2.3: every pixel of the mask is tested, the mask is copied for each
-/// neighbour, each pixel still true is tested against the plane of that neighbour, and the radiosities of
-/// all local patches are updated.
+/// Counts the other operations of §4.2.3: every pixel of the mask is tested, the mask is copied for
+/// each neighbour, each pixel still true is tested against the plane of that neighbour, and the
+/// radiosities of all local patches are updated.
 pub(crate) fn count_passes(shot: &mut Shot, environment: &LocalEnvironment, mask: &Mask) {
     let left: u64 = shot.outgoing.iter().flatten().map(|o| u64::from(o.mask.count())).sum();
     let neighbours = Side::ALL.iter().filter(|&&side| environment.has_neighbour(side)).count();

@@ -34,7 +34,8 @@ pub enum Record {
         /// Index among the planes of that axis.
         plane: u32,
     },
-    /// The edges of a polygon whose plane the ray meets in this cell, up to the first that excludes the point.
+    /// The edges of a polygon whose plane the ray meets in this cell, up to the first that excludes
+    /// the point.
     Edges {
         /// Index of the polygon.
         polygon: u32,
@@ -50,12 +51,13 @@ pub enum Record {
     },
     /// The copy of the mask for a neighbour (§4.2.3).
     Copy,
-    /// The direction of a pixel still true and its bit in that copy, for the test against the plane of the
-    /// neighbour.
+    /// The direction of a pixel still true and its bit in that copy, for the test against the plane
+    /// of the neighbour.
     PlaneTest(u32),
 }
 
-/// Calls `touch` for every record, in the order in which [`shoot_plainly`](crate::shoot_plainly) uses them.
+/// Calls `touch` for every record, in the order in which [`shoot_plainly`](crate::shoot_plainly)
+/// uses them.
 pub fn trace(
     space: &Space,
     environment: &LocalEnvironment,
@@ -84,7 +86,8 @@ pub fn trace(
     }
 }
 
-/// Follows a ray from an emitter in the cell `start`. Returns the side through which it leaves, if any.
+/// Follows a ray from an emitter in the cell `start`. Returns the side through which it leaves, if
+/// any.
 fn trace_ray(
     space: &Space,
     environment: &LocalEnvironment,
@@ -119,8 +122,8 @@ fn trace_ray(
     }
 }
 
-/// The nearest polygon of a cell that the ray hits before `exit`. The choice among coplanar ones does not
-/// matter here.
+/// The nearest polygon of a cell that the ray hits before `exit`. The choice among coplanar ones
+/// does not matter here.
 fn nearest_hit(
     space: &Space,
     polygons: impl Iterator<Item = u32>,

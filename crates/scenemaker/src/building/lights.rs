@@ -1,23 +1,26 @@
-//! One thousand lights on five floors, each one panel in the grid of the ceiling's tiles.
+//! The lights of the building, one thousand on five floors. Each is one panel in the grid of
+//! ceiling tiles.
 
-use crate::obj::{Cuboid, Facing::Down, Obj, Rect, Span};
+use crate::obj::Obj;
 use crate::palette::LIGHT;
+use crate::shapes::{Cuboid, Facing::Down, Rect, Span};
 
+use super::dimensions::{CLEAR, SIZE, SLAB};
 use super::space::{Plan, Use};
-use super::{CLEAR, SIZE, SLAB};
 
-/// How many lights there are a floor: one thousand on five (section 5.1).
+/// Lights per floor: one thousand on five floors (§5.1).
 const LIGHTS: usize = 200;
 /// Edge of a ceiling tile, mm. The tiles start at the middle of the building and divide its length
-/// and its width into even parts, so no panel crosses a plane that halves or quarters the plan.
+/// and width into even parts, so that no panel crosses a plane that halves or quarters the plan.
 const TILE: i32 = 600;
-/// Edge of a panel within its tile, mm.
+/// Edge of a panel inside its tile, mm.
 const PANEL: i32 = 580;
 /// How far a panel hangs below the ceiling, mm.
 const DROP: i32 = 30;
 
-/// Choice: how the lights are spread. Every space gets this many by its use; what remains
-/// is spaced evenly along all corridors. So floors that are cut up into many offices have more.
+/// Choice: how the lights are distributed. Every space gets a number that depends on its use. The
+/// remaining lights are evenly spaced along all corridors. So floors with many offices have more
+/// lights.
 fn lights_in(usage: Use) -> usize {
     match usage {
         Use::Office | Use::Shared => 2,
@@ -28,7 +31,7 @@ fn lights_in(usage: Use) -> usize {
     }
 }
 
-/// Hangs the lights of the whole building.
+/// Draws all lights of the building.
 pub fn draw(obj: &mut Obj, plans: &[Plan]) {
     let mut places = Vec::new();
     for space in plans.iter().flat_map(|plan| &plan.spaces) {
@@ -47,7 +50,7 @@ pub fn draw(obj: &mut Obj, plans: &[Plan]) {
     }
 }
 
-/// Spaces the remaining lights evenly along the corridors, laid end to end.
+/// Spaces the remaining lights evenly along all corridors.
 fn corridor_lights(places: &mut Vec<[i32; 3]>, plans: &[Plan]) {
     let spaces = plans.iter().flat_map(|plan| &plan.spaces);
     let corridors: Vec<Cuboid> =
@@ -66,8 +69,8 @@ fn corridor_lights(places: &mut Vec<[i32; 3]>, plans: &[Plan]) {
     }
 }
 
-/// The part of a space whose top is a ceiling to hang lights from: the landings of a stair well,
-/// the uppermost storey of the atrium.
+/// The part of a space with a ceiling for lights: the landings of a stair well, the uppermost
+/// storey of the atrium, all of any other space.
 fn ceiling(usage: Use, hollow: Cuboid) -> Option<Cuboid> {
     let Cuboid { y, z, .. } = hollow;
     // Only the uppermost storey of a shaft has a ceiling.
@@ -82,12 +85,13 @@ fn ceiling(usage: Use, hollow: Cuboid) -> Option<Cuboid> {
     }
 }
 
+/// The longer of the two horizontal extents.
 fn longer(hollow: Cuboid) -> Span {
     let Cuboid { x, y, .. } = hollow;
     if x[1] - x[0] >= y[1] - y[0] { x } else { y }
 }
 
-/// The middle of the tile nearest to a place on the ceiling's long axis.
+/// The middle of the tile nearest to a position along the longer axis of a ceiling.
 fn place(hollow: Cuboid, along: i32) -> [i32; 3] {
     let Cuboid { x, y, z } = hollow;
     let middle = |span: Span| (span[0] + span[1]) / 2;
@@ -96,7 +100,7 @@ fn place(hollow: Cuboid, along: i32) -> [i32; 3] {
     [tile(px, SIZE[0] / 2, x), tile(py, SIZE[1] / 2, y), z[1]]
 }
 
-/// The middle of the tile nearest to `at` that lies within the span.
+/// The middle of the tile nearest to `at` inside the span.
 fn tile(at: i32, origin: i32, [from, to]: Span) -> i32 {
     let nearest = origin + (at - origin).div_euclid(TILE) * TILE + TILE / 2;
     if nearest - TILE / 2 < from {

@@ -1,30 +1,31 @@
 //! The spaces of one storey and the openings between them.
 
-use crate::obj::{
-    Cuboid,
-    Facing::{self, Down, East, North, South, Up, West},
-    Obj, Opening, Span,
-};
+use crate::obj::Obj;
 use crate::palette::{
     BLUE_WALL, BRICK, CARPET, CEILING, CONCRETE, FRAME, GLASS, GREEN_WALL, Material, STONE, WALL,
     WARM_WALL, WOOD_FLOOR,
 };
+use crate::shapes::{
+    Cuboid,
+    Facing::{self, Down, East, North, South, Up, West},
+    Opening, Span,
+};
 
-use super::{CLEAR, SIZE, STOREY, elevation};
+use super::dimensions::{CLEAR, SIZE, STOREY, elevation};
 
 /// Width of a window, mm.
 const WINDOW: i32 = 1000;
-/// Least distance from the middle of a window to the next, mm.
+/// Smallest distance between the middles of two windows, mm.
 const WINDOW_PITCH: i32 = 1500;
-/// A window's sill and head above the floor, mm.
+/// Sill and head of a window above the floor, mm.
 const WINDOW_Z: Span = [900, 2400];
 
-/// What a space is for.
+/// The use of a space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Use {
-    /// A room for one or two.
+    /// A room for one or two people.
     Office,
-    /// A room for some six.
+    /// A room for about six people.
     Shared,
     /// A seminar room.
     Seminar,
@@ -39,7 +40,7 @@ pub enum Use {
 }
 
 impl Use {
-    /// What a room of that area (m²) serves for.
+    /// The use of a room, by its area (m²).
     pub fn of_room(area: f64) -> Use {
         match area {
             ..20.0 => Use::Office,
@@ -49,7 +50,7 @@ impl Use {
         }
     }
 
-    /// Whether floors and ceilings leave it open.
+    /// Whether it is open to the floors above and below.
     pub fn is_shaft(self) -> bool {
         matches!(self, Use::Stairs | Use::Atrium)
     }
@@ -84,29 +85,29 @@ impl Use {
 
 /// A hollow box: a room, a corridor, or one storey of a shaft.
 pub struct Space {
-    /// What it is for.
+    /// Its use.
     pub usage: Use,
-    /// Between its walls, floor and ceiling.
+    /// Its interior.
     pub hollow: Cuboid,
     number: usize,
-    /// Holes in its walls, each with the side that it is in.
-    holes: Vec<(Facing, Opening)>,
-    /// Walls that its doors lead through: the side, the wall's extent on that axis, the opening.
+    /// Openings in its walls, each with its side.
+    openings: Vec<(Facing, Opening)>,
+    /// Linings of its doors: side, extent of the wall on that axis, opening.
     linings: Vec<(Facing, Span, Opening)>,
 }
 
 /// One storey.
 pub struct Plan {
-    /// Counted from 0.
+    /// Its number, counted from 0.
     pub level: usize,
-    /// Whether no storey lies above it.
+    /// Whether it is the highest storey.
     pub uppermost: bool,
-    /// In the order of their numbers.
+    /// Its spaces, by number.
     pub spaces: Vec<Space>,
 }
 
 impl Plan {
-    /// A storey without spaces, of a building of so many floors.
+    /// A storey without spaces, of a building with a number of floors.
     pub fn new(level: usize, floors: usize) -> Plan {
         Plan { level, uppermost: level + 1 == floors, spaces: Vec::new() }
     }
@@ -116,7 +117,7 @@ impl Plan {
         elevation(self.level)
     }
 
-    /// From floor to ceiling.
+    /// Its height from floor to ceiling.
     pub fn clear(&self) -> Span {
         [self.floor(), self.floor() + CLEAR]
     }
@@ -124,22 +125,22 @@ impl Plan {
     /// Adds a space and returns its index.
     pub fn add(&mut self, usage: Use, x: Span, y: Span) -> usize {
         let number = self.spaces.len() + 1;
-        // Shafts reach up to the floor above, rooms to their ceiling.
+        // Shafts extend to the floor above, rooms to their ceiling.
         let open_above = usage.is_shaft() && !self.uppermost;
         let height = if open_above { STOREY } else { CLEAR };
         let hollow = Cuboid { x, y, z: [self.floor(), self.floor() + height] };
-        let space = Space { usage, hollow, number, holes: Vec::new(), linings: Vec::new() };
+        let space = Space { usage, hollow, number, openings: Vec::new(), linings: Vec::new() };
         self.spaces.push(space);
         self.spaces.len() - 1
     }
 
-    /// Opens the wall on that side of space `a` towards space `b`, which lies behind it.
+    /// Makes an opening in the wall on a side of space `a`, to space `b` behind it.
     pub fn join(&mut self, a: usize, side: Facing, b: usize, opening: Opening) {
-        // Both walls, seen from inside their spaces, lie where they face each other's way.
+        // Positions of the two surfaces of the wall.
         let near = self.spaces[a].hollow.outer(side).at;
         let far = self.spaces[b].hollow.outer(side.opposite()).at;
-        self.spaces[a].holes.push((side, opening));
-        self.spaces[b].holes.push((side.opposite(), opening));
+        self.spaces[a].openings.push((side, opening));
+        self.spaces[b].openings.push((side.opposite(), opening));
         if near != far {
             let depth = [near.min(far), near.max(far)];
             self.spaces[a].linings.push((side, depth, opening));
@@ -176,25 +177,29 @@ impl Space {
         }
     }
 
-    /// A wall with its doors, or windows where it is an outer one.
+    /// A wall with its doors, or with windows if it is an outer wall.
     fn draw_side(&self, obj: &mut Obj, paint: &'static Material, side: Facing) {
         let inward = side.opposite();
         let wall = self.hollow.inner(inward);
-        let mut holes: Vec<Opening> =
-            self.holes.iter().filter(|hole| hole.0 == side).map(|hole| hole.1).collect();
+        let mut openings: Vec<Opening> = self
+            .openings
+            .iter()
+            .filter(|opening| opening.0 == side)
+            .map(|opening| opening.1)
+            .collect();
         if let Some(glass) = outer_face(side, wall.at) {
-            holes = windows(wall.u, self.hollow.z[0]);
+            openings = windows(wall.u, self.hollow.z[0]);
             let depth = [glass.min(wall.at), glass.max(wall.at)];
-            for &window in &holes {
+            for &window in &openings {
                 obj.recess([&FRAME, &GLASS], Some(&FRAME), inward, depth, window);
             }
         }
-        holes.sort_by_key(|hole| hole.along);
-        obj.wall(paint, wall, &holes);
+        openings.sort_by_key(|opening| opening.along);
+        obj.wall(paint, wall, &openings);
     }
 }
 
-/// Where the glass stands in a wall on that side, if it is an outer wall.
+/// Position of the glass in a wall, if it is an outer wall.
 fn outer_face(side: Facing, at: i32) -> Option<i32> {
     let glass = match side {
         West | South => 0,
@@ -202,10 +207,10 @@ fn outer_face(side: Facing, at: i32) -> Option<i32> {
         North => SIZE[1],
         Up | Down => return None,
     };
-    ((at - glass).abs() == super::WALL).then_some(glass)
+    ((at - glass).abs() == super::dimensions::WALL).then_some(glass)
 }
 
-/// As many windows as fit the wall, evenly.
+/// As many windows as fit in a wall, evenly spaced.
 fn windows([from, to]: Span, floor: i32) -> Vec<Opening> {
     let count = ((to - from) / WINDOW_PITCH).max(1);
     let middle = |i: i32| from + (to - from) * (2 * i + 1) / (2 * count);

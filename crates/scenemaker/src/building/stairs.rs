@@ -1,23 +1,24 @@
-//! Stair wells: on every floor a landing to the south, half-way up one to the north, and between
-//! them two ramped flights on either side of a wall.
+//! Stair wells: a landing to the south on every floor, one to the north half a storey higher, and
+//! two ramps between them on either side of a wall.
 
-use crate::obj::{
+use crate::obj::Obj;
+use crate::palette::{CONCRETE, WALL};
+use crate::shapes::{
     Cuboid,
     Facing::{Down, East, North, South, Up, West},
-    Obj, Rect, Span,
+    Rect, Span,
 };
-use crate::palette::{CONCRETE, WALL};
 
-use super::{SLAB, STOREY, elevation};
+use super::dimensions::{SLAB, STOREY, elevation};
 
 /// Width of a flight, mm.
 const FLIGHT: i32 = 1200;
 /// Depth of the landings to the south and to the north, mm.
 const LANDINGS: Span = [2200, 2000];
-/// What a flight rises, mm.
+/// Height of a flight, mm.
 const RISE: i32 = STOREY / 2;
 
-/// Draws all that stands in a well of that extent through so many floors.
+/// Draws the stairs in a well of a given extent through a number of floors.
 pub fn draw(obj: &mut Obj, x: Span, y: Span, floors: usize) {
     let run = [y[0] + LANDINGS[0], y[1] - LANDINGS[1]];
     let (west, east) = ([x[0], x[0] + FLIGHT], [x[1] - FLIGHT, x[1]]);
@@ -34,7 +35,7 @@ pub fn draw(obj: &mut Obj, x: Span, y: Span, floors: usize) {
         flight(obj, east, run, [floor + 2 * RISE, floor + RISE]);
         slab(obj, x, [y[0], run[0]], floor + 2 * RISE);
     }
-    // On the top floor nothing goes on from the western half of the landing.
+    // On the top floor no flight continues from the western half of the landing.
     let edge = elevation(top);
     let v = [edge - SLAB, edge];
     obj.rect(&CONCRETE, Rect { facing: North, at: run[0], u: west, v });
@@ -43,14 +44,14 @@ pub fn draw(obj: &mut Obj, x: Span, y: Span, floors: usize) {
     obj.faces(&WALL, wall, &[East, West, North, South, Up]);
 }
 
-/// Top and bottom of a landing; flights hide its edge.
+/// Top and bottom of a landing. Flights hide its edges.
 fn slab(obj: &mut Obj, x: Span, y: Span, z: i32) {
     obj.rect(&CONCRETE, Rect { facing: Up, at: z, u: x, v: y });
     obj.rect(&CONCRETE, Rect { facing: Down, at: z - SLAB, u: x, v: y });
 }
 
-/// Top and bottom of a ramp between two walls, whose height goes from `z[0]` to `z[1]` as y goes
-/// along `run`. The lowest flight's bottom begins where it leaves the ground.
+/// Top and bottom of a ramp between two walls. Its height goes from `z[0]` to `z[1]` as y goes
+/// along `run`. The bottom of the lowest flight starts where it leaves the ground.
 fn flight(obj: &mut Obj, x: Span, run: Span, z: Span) {
     let ramp = |y: Span, z: Span| {
         [[x[0], y[0], z[0]], [x[1], y[0], z[0]], [x[1], y[1], z[1]], [x[0], y[1], z[1]]]

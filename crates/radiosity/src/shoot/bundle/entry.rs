@@ -1,5 +1,5 @@
-//! Finds the cells in which the rays of a bundle enter a block: [`Grid::enter`](crate::Grid::enter) for 64
-//! rays at a time.
+//! Finds the cells in which the rays of a bundle enter a block: [`Grid::enter`](crate::Grid::enter)
+//! for 64 rays at a time.
 
 use fearless_simd::prelude::*;
 
@@ -12,7 +12,8 @@ use super::rays::Rays;
 pub(crate) struct Entry {
     /// Each cell with the rays that enter in it.
     pub(crate) cells: Vec<([u32; 3], u64)>,
-    /// Working memory: for both axes of a side, the rays that enter through it, by cell on that axis.
+    /// Working memory: for both axes of a side, the rays that enter through it, by cell on that
+    /// axis.
     columns: [Vec<(u32, u64)>; 2],
 }
 
@@ -24,8 +25,8 @@ struct Outside<'a> {
 }
 
 impl Entry {
-    /// Finds the cells in which rays with the same headings enter a block from outside. Returns the rays that
-    /// never enter.
+    /// Finds the cells in which rays with the same headings enter a block from outside. Returns the
+    /// rays that never enter.
     #[inline(always)]
     pub(crate) fn find<S: Simd>(
         &mut self,
@@ -99,7 +100,8 @@ impl Outside<'_> {
             return;
         }
         let up = self.headings[axis] == Heading::Up;
-        // From the first cell of the block that they can reach to the last. The grid ends at `last`.
+        // From the first cell of the block that they can reach to the last. The grid ends at
+        // `last`.
         let (low, high) = (self.view.block.low[axis], self.view.block.high[axis]);
         let last = if up { self.view.grid.cells()[axis] - 1 } else { 0 };
         let (mut cell, end) =
@@ -129,8 +131,8 @@ impl Outside<'_> {
     }
 }
 
-/// The plane that rays must cross on each axis to get into the block, where they must cross one. `None` if on
-/// one axis they run away from the block.
+/// The plane that rays must cross on each axis to get into the block, where they must cross one.
+/// `None` if on one axis they run away from the block.
 fn sides_ahead(view: &GridView, headings: [Heading; 3]) -> Option<[Option<u32>; 3]> {
     let mut sides = [None; 3];
     for axis in 0..3 {

@@ -13,8 +13,8 @@ pub(crate) struct GridView<'a> {
     pub(crate) block: Block,
     /// The cell of the emitter.
     pub(crate) start: [u32; 3],
-    /// Coordinates of all planes relative to the emitter, axis after axis. The last entry is a plane that is
-    /// never crossed.
+    /// Coordinates of all planes relative to the emitter, axis after axis. The last entry is a
+    /// plane that is never crossed.
     pub(crate) planes: Vec<f64>,
     /// Index of the first plane of each axis, and of the last entry.
     pub(crate) first: [u32; 4],
@@ -41,8 +41,8 @@ impl<'a> GridView<'a> {
         })
     }
 
-    /// The rays that cross one plane before another, each given by its axis and its number. Crossings are
-    /// sorted by distance, then by axis.
+    /// The rays that cross one plane before another, each given by its axis and its number.
+    /// Crossings are sorted by distance, then by axis.
     #[inline(always)]
     pub(crate) fn crossed<S: Simd>(
         &self,

@@ -1,4 +1,5 @@
-//! The parts of the fast path, which casts bundles of 64 neighbouring rays, one bundle for each word of a mask.
+//! The parts of the fast path, which casts bundles of 64 neighbouring rays, one bundle for each
+//! word of a mask.
 //!
 //! - `rays`: the rays of a bundle, stored as columns of numbers
 //! - `heading`: up, down or level: how rays run along an axis

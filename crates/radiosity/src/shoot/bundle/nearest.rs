@@ -8,7 +8,8 @@ use crate::mesh::{Facet, Facets};
 
 /// The nearest hit found so far of each ray of a bundle.
 pub(crate) struct Nearest {
-    /// Distance of the hit, metres. Infinite while there is none, negative for rays that are not cast.
+    /// Distance of the hit, metres. Infinite while there is none, negative for rays that are not
+    /// cast.
     pub(crate) distance: Column,
     /// The polygons that are the nearest for some rays.
     pub(crate) hits: Vec<Hit>,
@@ -80,8 +81,8 @@ impl Nearest {
         }
     }
 
-    /// Tests rays against an axis-aligned rectangle. The result equals that of the general case to the bit,
-    /// since all factors are one or zero there.
+    /// Tests rays against an axis-aligned rectangle. The result equals that of the general case to
+    /// the bit, since all factors are one or zero there.
     #[inline(always)]
     fn meet_rectangle<S: Simd>(
         &mut self,
@@ -137,9 +138,9 @@ impl Nearest {
         reach
     }
 
-    /// Stores the distances `t` of the rays of a chunk that are positive, inside the polygon (`margin` is the
-    /// distance to the nearest edge) and nearer than the stored ones. Returns these rays, and the rays for
-    /// which it is equally near.
+    /// Stores the distances `t` of the rays of a chunk that are positive, inside the polygon
+    /// (`margin` is the distance to the nearest edge) and nearer than the stored ones. Returns
+    /// these rays, and the rays for which it is equally near.
     #[inline(always)]
     fn keep<S: Simd>(
         &mut self,
@@ -161,7 +162,8 @@ impl Nearest {
         (nearer.to_bitmask(), (reached & !nearer).to_bitmask())
     }
 
-    /// Makes a polygon the nearest one of the rays for which it is, or for which it precedes an equally near one.
+    /// Makes a polygon the nearest one of the rays for which it is, or for which it precedes an
+    /// equally near one.
     fn record(&mut self, reach: &Reach, piece: u32) {
         let mut wins = reach.nearer;
         let mut tied = reach.as_near & self.found();

@@ -8,8 +8,8 @@ use super::nearest::Nearest;
 use super::rays::{CHUNKS, LANES, Rays, of_chunk};
 use crate::mesh::{LocalEnvironment, Piece};
 
-/// Calls `report` with the patch (`None` for a back) and the rays that hit it, for all rays that `ended`. A patch
-/// can be reported several times.
+/// Calls `report` with the patch (`None` for a back) and the rays that hit it, for all rays that
+/// `ended`. A patch can be reported several times.
 #[inline(always)]
 pub(crate) fn find_patches<S: Simd>(
     simd: S,
@@ -40,8 +40,8 @@ pub(crate) fn find_patches<S: Simd>(
     }
 }
 
-/// The slots in which the rays of a chunk hit a piece, computed as in [`LocalEnvironment::patch_at`]. Slots are
-/// integers, which f64 represents exactly.
+/// The slots in which the rays of a chunk hit a piece, computed as in
+/// [`LocalEnvironment::patch_at`]. Slots are integers, which f64 represents exactly.
 #[inline(always)]
 fn slots<S: Simd>(
     simd: S,

@@ -1,8 +1,9 @@
-//! The rays of a bundle: 64 neighbouring rays from one emitter, one for each bit of a word of a mask.
+//! The rays of a bundle: 64 neighbouring rays from one emitter, one for each bit of a word of a
+//! mask.
 //!
-//! The arithmetic of each ray is that of [`Ray`] and [`Facets::hit`](crate::Facets::hit) to the bit, but done
-//! on eight rays at a time with the best vector instructions of the host. Sets of rays are words, with one
-//! bit for each ray.
+//! The arithmetic of each ray is that of [`Ray`] and [`Facets::hit`](crate::Facets::hit) to the
+//! bit, but done on eight rays at a time with the best vector instructions of the host. Sets of
+//! rays are words, with one bit for each ray.
 
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
@@ -42,7 +43,8 @@ pub(crate) fn of_chunk(word: u64, chunk: usize) -> u64 {
     word >> (chunk * LANES) & 0xff
 }
 
-/// Unit directions in the frame of an emitter, stored by coordinate, and a pyramid around each bundle.
+/// Unit directions in the frame of an emitter, stored by coordinate, and a pyramid around each
+/// bundle.
 #[derive(Clone, Debug)]
 pub(crate) struct Bundles {
     directions: Vec<[Column; 3]>,

@@ -1,8 +1,8 @@
-//! The walk of the rays of a bundle through the grid: counts the operations of the simulated processor and
-//! finds where rays leave the block.
+//! The walk of the rays of a bundle through the grid: counts the operations of the simulated
+//! processor and finds where rays leave the block.
 //!
-//! It does what [`Passage`](crate::Passage) does, for 64 rays at a time: rays in the same cell go together.
-//! Polygons are counted, not tested: hits are known already.
+//! It does what [`Passage`](crate::Passage) does, for 64 rays at a time: rays in the same cell go
+//! together. Polygons are counted, not tested: hits are known already.
 
 use fearless_simd::prelude::*;
 
@@ -179,9 +179,10 @@ impl Course {
     }
 }
 
-/// What rays in a cell do next, given the coordinates `ahead` of the next planes relative to the emitter.
-/// Returns three sets: rays whose hit is not farther than the next crossing, rays that cross the x plane
-/// first, and rays that cross the y plane before the z plane. Of equal crossings, the lower axis is first.
+/// What rays in a cell do next, given the coordinates `ahead` of the next planes relative to the
+/// emitter. Returns three sets: rays whose hit is not farther than the next crossing, rays that
+/// cross the x plane first, and rays that cross the y plane before the z plane. Of equal crossings,
+/// the lower axis is first.
 #[inline(always)]
 fn next_crossings<S: Simd>(
     simd: S,

@@ -1,71 +1,20 @@
-//! "It represents five floors of a building without any furniture and with one thousand light
-//! sources. This scene represents the Soda Hall Berkeley Computer Science building." (section 5.1)
-//!
-//! Not Soda Hall's plan, but its manner. Rooms along all four fronts; inside them a ring of corridors
-//! and a spine; between these, rooms without windows, two stair wells, and an atrium through all
-//! floors. Low floors hold a few halls and laboratories, high floors many small offices. A building
-//! of more floors than five begins anew after every fifth, inside the same shafts.
-
-mod lights;
-mod space;
-mod stairs;
+//! The layout of a storey: corridors, shafts, and rows of rooms.
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-use crate::obj::{
+use super::dimensions::{ATRIUM, SIZE, WALL, band, column, mirrored};
+use super::space::{Plan, Use};
+use crate::shapes::{
     Facing::{self, East, North, South, West},
-    Obj, Opening, Span,
+    Opening, Span,
 };
-use crate::stream::stream;
-use space::{Plan, Use};
 
-/// Outer extents in x and y, glass to glass, mm.
-const SIZE: [i32; 2] = [60_000, 32_000];
-/// Thickness of a wall, mm.
-const WALL: i32 = 200;
-/// From floor to floor, mm.
-const STOREY: i32 = 3600;
-/// From floor to ceiling, mm.
-const CLEAR: i32 = 3000;
-/// Thickness of landings and flights, mm.
-const SLAB: i32 = 200;
-
-/// The plan's bands from south to north, mm; what lies between two bands is wall.
-mod band {
-    use crate::obj::Span;
-    pub const SOUTH: Span = [200, 5300];
-    pub const SOUTH_CORRIDOR: Span = [5500, 7900];
-    pub const FRONT: Span = [8100, 12_200];
-    pub const REAR: Span = [12_400, 15_900];
-    pub const SPINE: Span = [16_100, 18_900];
-    pub const BACK: Span = [19_100, 23_900];
-    pub const NORTH_CORRIDOR: Span = [24_100, 26_500];
-    pub const NORTH: Span = [26_700, 31_800];
-    /// Everything within the ring of corridors.
-    pub const CORE: Span = [FRONT[0], BACK[1]];
-    /// The front and the rear rows in one.
-    pub const DEEP: Span = [FRONT[0], REAR[1]];
-}
-
-/// The western half's columns, mm; the eastern half mirrors them.
-mod column {
-    use crate::obj::Span;
-    pub const WEST: Span = [200, 5000];
-    pub const CORRIDOR: Span = [5200, 7400];
-    pub const CORE: Span = [7600, 24_400];
-    pub const STAIRS: Span = [7600, 10_200];
-    pub const BESIDE_STAIRS: Span = [10_400, 24_400];
-}
-
-/// The atrium's extent in x, mm.
-const ATRIUM: Span = [24_600, 35_400];
-
-/// How many rooms lie in each row of a storey.
+/// Numbers of rooms in the rows of a storey.
 struct Storey {
     south: usize,
     north: usize,
-    /// At the west end, and as many at the east end.
+    /// At the west end, and the same number at the east end.
     ends: usize,
     /// Between south corridor and spine, on either side of the atrium.
     inner: Inner,
@@ -74,9 +23,9 @@ struct Storey {
 }
 
 enum Inner {
-    /// So many rooms from the corridor to the spine.
+    /// A number of rooms from the corridor to the spine.
     Deep(usize),
-    /// A front and a rear row of so many rooms each.
+    /// A front and a rear row, with a number of rooms each.
     Rows(usize),
 }
 
@@ -89,33 +38,11 @@ const STOREYS: [Storey; 5] = [
     Storey { south: 18, north: 18, ends: 5, inner: Inner::Rows(4), back: 5 },
 ];
 
-/// Floors of the paper's building.
+/// Number of floors of the building of the paper.
 pub const FLOORS: u16 = STOREYS.len() as u16;
 
-/// Draws the scene with so many floors.
-pub fn draw(floors: u16, seed: u64) -> Obj {
-    let mut obj = Obj::default();
-    let mut rng = stream(seed, "walls");
-    let floors = usize::from(floors);
-    let plans: Vec<Plan> =
-        (0..floors).map(|level| plan(Plan::new(level, floors), &mut rng)).collect();
-    for plan in &plans {
-        plan.draw(&mut obj);
-    }
-    for x in [column::STAIRS, mirrored(column::STAIRS)] {
-        stairs::draw(&mut obj, x, band::DEEP, floors);
-    }
-    lights::draw(&mut obj, &plans);
-    obj
-}
-
-/// The same span on the other side of the building's middle.
-fn mirrored([a, b]: Span) -> Span {
-    [SIZE[0] - b, SIZE[0] - a]
-}
-
-/// Lays out one storey, still empty.
-fn plan(plan: Plan, rng: &mut ChaCha8Rng) -> Plan {
+/// Lays out one storey.
+pub fn lay_out(plan: Plan, rng: &mut ChaCha8Rng) -> Plan {
     let storey = &STOREYS[plan.level % STOREYS.len()];
     let mut layout = Layout::with_corridors(plan, rng);
     layout.shafts();
@@ -129,14 +56,14 @@ fn plan(plan: Plan, rng: &mut ChaCha8Rng) -> Plan {
     layout.plan
 }
 
-/// Which side of the atrium.
+/// A side of the atrium.
 #[derive(Clone, Copy)]
 enum Half {
     West,
     East,
 }
 
-/// A storey while it is laid out: its plan so far, and the indices of its corridors.
+/// A storey under construction: its plan so far, and the indices of its corridors.
 struct Layout<'a> {
     plan: Plan,
     rng: &'a mut ChaCha8Rng,
@@ -169,8 +96,8 @@ impl<'a> Layout<'a> {
         Layout { plan, rng, south, north, cross, spine }
     }
 
-    /// Stair wells and atrium. On the lowest floor arches lead into the atrium, above it they have
-    /// parapets.
+    /// Stair wells and atrium. Arches lead into the atrium on the lowest floor. On other floors
+    /// they have parapets.
     fn shafts(&mut self) {
         let floor = self.plan.floor();
         for x in [column::STAIRS, mirrored(column::STAIRS)] {
@@ -193,7 +120,7 @@ impl<'a> Layout<'a> {
         self.plan.join(atrium, East, self.spine[1], Opening { along, z });
     }
 
-    /// The end front and the core on one side of the atrium.
+    /// The rooms at one end and in the core on one side of the atrium.
     fn half(&mut self, storey: &Storey, half: Half) {
         let (index, inward) = match half {
             Half::West => (0, East),
@@ -216,7 +143,7 @@ impl<'a> Layout<'a> {
         self.row(storey.back, side(column::CORE), band::BACK, &[(North, north)]);
     }
 
-    /// Rooms side by side from west to east, each with doors to the corridors named.
+    /// Rooms side by side from west to east, each with doors to the given corridors.
     fn row(&mut self, count: usize, x: Span, y: Span, doors: &[(Facing, usize)]) {
         for x in partition(self.rng, x, count) {
             self.room(x, y, doors);
@@ -230,13 +157,14 @@ impl<'a> Layout<'a> {
         }
     }
 
+    /// A room with doors to corridors.
     fn room(&mut self, x: Span, y: Span, doors: &[(Facing, usize)]) {
         let area = f64::from(x[1] - x[0]) * f64::from(y[1] - y[0]) * 1e-6;
         let room = self.plan.add(Use::of_room(area), x, y);
         for &(side, corridor) in doors {
             let along = if matches!(side, East | West) { y } else { x };
             let width = if area < 45.0 { 900 } else { 1800 };
-            // A door stands near one end of its wall, as it does where somebody works.
+            // A door is near one end of its wall.
             let from =
                 if self.rng.random_bool(0.5) { along[0] + 300 } else { along[1] - 300 - width };
             let z = [self.plan.floor(), self.plan.floor() + 2100];
@@ -245,8 +173,8 @@ impl<'a> Layout<'a> {
     }
 }
 
-/// Cuts a length into rooms of unequal width with walls between them; the widest takes up at most
-/// 1.8 times what the narrowest does.
+/// Divides a length into rooms of unequal width with walls between them. The widest takes at most
+/// 1.8 times as much as the narrowest.
 fn partition(rng: &mut ChaCha8Rng, [from, to]: Span, count: usize) -> Vec<Span> {
     let weights: Vec<i32> = (0..count).map(|_| rng.random_range(10..=18)).collect();
     let sum: i32 = weights.iter().sum();
@@ -259,10 +187,4 @@ fn partition(rng: &mut ChaCha8Rng, [from, to]: Span, count: usize) -> Vec<Span> 
         [west, edge(taken) - WALL]
     };
     weights.iter().map(span).collect()
-}
-
-/// Elevation of a storey's floor, mm.
-fn elevation(level: usize) -> i32 {
-    // Levels fit 16 bits: no truncation.
-    level as i32 * STOREY
 }
