@@ -6,7 +6,7 @@ use clap::Args;
 use lab::OpenScene;
 use radiosity::{
     Camera, Hemisphere, HemisphereKind, LocalEnvironment, PatchSize, Picture, PictureError,
-    PictureOptions, Rgb, Space, render, solve_watched, studio_light,
+    PictureOptions, Rgb, Space, render, solve, studio_light,
 };
 
 use crate::exit::Exit;
@@ -108,7 +108,7 @@ fn picture(
         .expect("4096 is a number of pixels that a Fibonacci disc can have");
     let steps = Steps::new("% of the light", (100.0 * (1.0 - UNSHOT)) as usize);
     let watch = |left: f64| steps.at((100.0 * (1.0 - left)) as u64);
-    let (light, _) = solve_watched(space, whole, &hemisphere, UNSHOT, MOST_SHOTS, watch);
+    let (light, _) = solve(space, whole, &hemisphere, UNSHOT, MOST_SHOTS, watch);
     steps.end();
     let colour = |polygon, point| {
         whole.patch_at(polygon, point).map_or(Rgb::ZERO, |patch| light.radiosity(whole, patch))

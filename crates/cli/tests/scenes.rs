@@ -90,7 +90,7 @@ fn they_are_closed() {
     let hemisphere = Hemisphere::new(HemisphereKind::Fibonacci, 4_096, true).unwrap();
     for name in ["office", "rooms", "building", "room4", "corridor", "hole"] {
         let (space, environment) = meshed(&open(name));
-        let (light, shots) = solve(&space, &environment, &hemisphere, 0.0, 1_500);
+        let (light, shots) = solve(&space, &environment, &hemisphere, 0.0, 1_500, |_| ());
         assert_eq!(shots, 1_500);
         assert_eq!(light.escaped.element_sum(), 0.0, "{name}");
     }

@@ -6,7 +6,7 @@
 //! - `geometry`: boxes, rays, clipping: geometry that knows no scene
 //! - `media`: participating media that absorb light (§3.2)
 //! - `scene`: scenes, read from OBJ and MTL files and cleaned
-//! - `mesh`: the grid of cells (§3.4), local environments and their patches (§4.2.1)
+//! - `mesh`: the grid of cells, local environments and their patches (§4.2.1)
 //! - `shoot`: the rays of an emitter through a local environment (§3.3, §4.2.3)
 //! - `virtual_walls`: energy gathered by wall patch and direction: the method before masks
 //! - `light`: the light on patches; progressive radiosity in one environment (§5.2)
@@ -23,7 +23,7 @@ mod virtual_walls;
 
 pub use geometry::{Bounds, Ray};
 pub use glam;
-pub use light::{Greatest, Light, Refinement, Wanted, solve, solve_watched};
+pub use light::{Greatest, Light, Refinement, Wanted, solve};
 pub use media::{DepthBits, Medium, optical_depth};
 pub use mesh::{
     Block, Facets, Grid, LocalEnvironment, Part, Passage, Patch, PatchSize, Side, Space,

@@ -1,6 +1,5 @@
-//! Virtual walls, the method before visibility masks (§3 and reference [1] of RR-3008): interfaces
-//! between environments are meshed, and the energy that reaches them is gathered by wall patch and
-//! by direction.
+//! Virtual walls, the method before masks (§3 and reference [1] of RR-3008): interfaces are meshed,
+//! and the energy that reaches them is gathered by wall patch and by direction.
 
 use glam::DVec3;
 use thiserror::Error;
@@ -105,8 +104,7 @@ impl VirtualWalls {
         emitter.is_of_a_wall().then(|| &self.bins[bin])
     }
 
-    /// A bin of a wall patch as an emitter of `power`. Its light enters the environment with bounds
-    /// `around` through `side`.
+    /// A bin of a wall patch as an emitter into the environment `around`, through `side`.
     pub fn emitter(
         &self,
         around: &Bounds,
@@ -147,8 +145,7 @@ impl VirtualWalls {
         let plane = if side.upper { around.max } else { around.min }[side.axis];
         for pixel in mask.ones() {
             let direction = hemisphere.direction(frame, pixel);
-            // Rays of an emitter in the plane of the wall can run inside that plane. They cross it
-            // at their origin.
+            // Rays inside the plane of the wall cross it at their origin.
             let distance = (plane - emitter.centre[side.axis]) / direction[side.axis];
             let distance = if distance.is_finite() { distance } else { 0.0 };
             let patch = self.patch_at(around, side, emitter.centre + direction * distance);

@@ -9,12 +9,8 @@ use radiosity::{
 };
 
 fn grey(reflectance: f64, emission: f64) -> Material {
-    Material {
-        name: "grey".to_owned(),
-        reflectance: Rgb::splat(reflectance),
-        emission: Rgb::splat(emission),
-        two_sided: false,
-    }
+    let (reflectance, emission) = (Rgb::splat(reflectance), Rgb::splat(emission));
+    Material { reflectance, emission, ..Material::default() }
 }
 
 fn quad(points: [[f64; 3]; 4], object: u32) -> Face {
@@ -133,7 +129,7 @@ fn furnace() {
         let exact = 2.0 / (1.0 - reflectance);
         let spread = [1.0, 0.5].map(|size| {
             let environment = whole(&space, size);
-            let (light, _) = solve(&space, &environment, &fibonacci(2_048), 1e-5, u64::MAX);
+            let (light, _) = solve(&space, &environment, &fibonacci(2_048), 1e-5, u64::MAX, |_| ());
             // Energy is conserved, so the mean is exact except for the unshot power.
             let mean = light.leaving.iter().sum::<Rgb>().x / space.scene.area();
             assert!((mean / exact - 1.0).abs() < 1e-4, "{mean} {exact}");
@@ -152,7 +148,7 @@ fn furnace() {
 fn open_to_the_sky() {
     let space = space(&room([2.0, 2.0, 1.0])[..1], grey(0.5, 1.0));
     let environment = whole(&space, 0.5);
-    let (light, shots) = solve(&space, &environment, &fibonacci(256), 0.0, u64::MAX);
+    let (light, shots) = solve(&space, &environment, &fibonacci(256), 0.0, u64::MAX, |_| ());
     assert_eq!(shots, 16);
     assert!((light.escaped.x - 4.0).abs() < 1e-12 && light.absorbed.x == 0.0, "{light:?}");
 }
@@ -161,6 +157,6 @@ fn open_to_the_sky() {
 #[test]
 fn no_light() {
     let space = space(&room([1.0; 3]), grey(0.5, 0.0));
-    let (light, shots) = solve(&space, &whole(&space, 0.5), &fibonacci(256), 0.0, u64::MAX);
+    let (light, shots) = solve(&space, &whole(&space, 0.5), &fibonacci(256), 0.0, u64::MAX, |_| ());
     assert_eq!((shots, light.unshot_power()), (0, Rgb::ZERO));
 }

@@ -17,12 +17,7 @@ fn scene() -> Scene {
     };
     let floor = |x: f64| [[x, 0.0, 0.0], [x + 2.0, 0.0, 0.0], [x + 2.0, 2.0, 0.0], [x, 2.0, 0.0]];
     let wall = [[0.0, 2.0, 0.0], [4.0, 2.0, 0.0], [4.0, 2.0, 1.0], [0.0, 2.0, 1.0]];
-    let material = |name: &str| Material {
-        name: name.to_owned(),
-        reflectance: Rgb::splat(0.5),
-        emission: Rgb::ZERO,
-        two_sided: false,
-    };
+    let material = |name: &str| Material { name: name.to_owned(), ..Material::default() };
     let faces = [face(floor(0.0), 0), face(floor(2.0), 1), face(wall, 0)];
     let materials = vec![material("left"), material("right")];
     Scene::new(&faces, materials, vec!["all".to_owned()]).unwrap().0

@@ -14,14 +14,9 @@ fn squares(upper_faces_up: bool) -> Scene {
         }
         Face { points, material: 0, object: 0 }
     };
-    let grey = Material {
-        name: "grey".to_owned(),
-        reflectance: Rgb::splat(0.5),
-        emission: Rgb::ZERO,
-        two_sided: false,
-    };
     let faces = [square(0.0, true), square(1.0, upper_faces_up)];
-    Scene::new(&faces, vec![grey], vec!["squares".to_owned()]).expect("squares are a scene").0
+    let (materials, objects) = (vec![Material::default()], vec!["squares".to_owned()]);
+    Scene::new(&faces, materials, objects).expect("squares are a scene").0
 }
 
 /// Looks straight down from 10 m.

@@ -11,12 +11,8 @@ use radiosity::{
 const SIZE: PatchSize = PatchSize { reflector: 1.0, emitter: 1.0 };
 
 fn material(emission: f64) -> Material {
-    Material {
-        name: format!("{emission}"),
-        reflectance: Rgb::splat(0.5),
-        emission: Rgb::splat(emission),
-        two_sided: false,
-    }
+    let (name, emission) = (format!("{emission}"), Rgb::splat(emission));
+    Material { name, emission, ..Material::default() }
 }
 
 fn face(points: &[[f64; 3]], material: u32) -> Face {

@@ -1,5 +1,4 @@
-//! Tables, chairs and bookcases. Where a part stands on another one it has no face, so that no two
-//! polygons coincide.
+//! Tables, chairs and bookcases. Hidden contact faces are omitted, so that none coincide.
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -89,8 +88,7 @@ pub fn bookcase(obj: &mut Obj, body: Cuboid, rng: &mut ChaCha8Rng) {
     for level in 0..=LEVELS {
         let under = if level == LEVELS { z[1] - BOARD } else { z[0] + level * pitch };
         let board = Cuboid { x: inside, y, z: [under, under + BOARD] };
-        // The underside of the lowest board is on the floor. The top of the highest one is the top
-        // of the body.
+        // The lowest board is on the floor, and the body has the top of the highest one.
         let visible = match level {
             0 => &front[..2],
             LEVELS => &[South, Down],

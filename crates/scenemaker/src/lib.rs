@@ -5,30 +5,19 @@
 //! metres. z is up, and the front of a polygon is the side from which its corners run
 //! counter-clockwise. All scenes but the Cornell box are closed: no ray from inside escapes or hits
 //! the back of a polygon.
-//!
-//! - `make`: makes a scene by its kind
-//! - `kind`: the scenes by name
-//! - `scene_text`: the text of a scene's files
-//! - `office`, `rooms`, `building`: the three scenes of the paper
-//! - `small`: small scenes to compare methods on
-//! - `furniture`: tables, chairs, bookcases
-//! - `palette`: materials
-//! - `shapes`: rectangles, boxes, openings
-//! - `obj`: writes shapes as OBJ text
-//! - `stream`: named random streams
 
-mod building;
-mod furniture;
-mod kind;
-mod make;
-mod obj;
-mod office;
-mod palette;
-mod rooms;
-mod scene_text;
-mod shapes;
-mod small;
-mod stream;
+mod building; // five floors with one thousand lights
+mod furniture; // tables, chairs, bookcases
+mod kind; // the scenes by name
+mod make; // makes a scene by its kind
+mod obj; // writes shapes as OBJ text
+mod office; // one open room
+mod palette; // materials
+mod rooms; // 32 equal rooms
+mod scene_text; // the text of a scene's files
+mod shapes; // rectangles, boxes, openings
+mod small; // small scenes to compare methods on
+mod stream; // named random streams
 
 pub use kind::{SceneKind, UnknownScene};
 pub use make::{FLOORS, make, make_building, make_rooms};

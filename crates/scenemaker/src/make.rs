@@ -10,9 +10,8 @@ use crate::{building, office, small};
 
 /// Makes a scene. The same seed gives the same bytes.
 ///
-/// The seed moves chairs in the office and walls in the building. It has no effect on other scenes.
-/// The numbers of polygons and lights do not depend on it, except for the windows of the building,
-/// which follow its walls.
+/// The seed moves chairs in the office and walls, with their windows, in the building. Otherwise
+/// the numbers of polygons and lights do not depend on it.
 pub fn make(kind: SceneKind, seed: u64) -> SceneText {
     let obj = match kind {
         SceneKind::Office => office::draw(seed),

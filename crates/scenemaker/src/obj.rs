@@ -67,9 +67,8 @@ impl Obj {
         self.faces(material, cuboid, &[East, West, North, South, Up, Down]);
     }
 
-    /// Adds a vertical rectangle with openings, which must be inside it, in ascending order and
-    /// without overlap. It becomes full-height pieces between openings, and pieces below and above
-    /// each opening.
+    /// Adds a vertical rectangle with openings inside it, in ascending order without overlap. It
+    /// becomes full-height pieces between openings, and pieces below and above each one.
     pub fn wall(&mut self, material: &'static Material, wall: Rect, openings: &[Opening]) {
         let [mut from, end] = wall.u;
         let [bottom, top] = wall.v;
@@ -110,8 +109,7 @@ impl Obj {
         }
     }
 
-    /// Adds a recess in a wall that faces `facing`: its lining, and a pane or a door leaf at its
-    /// far end.
+    /// Adds a recess in a wall that faces `facing`: lining, and a pane or leaf at its end.
     pub fn recess(
         &mut self,
         [lining, back]: [&'static Material; 2],

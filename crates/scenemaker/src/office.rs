@@ -29,8 +29,7 @@ const DOOR_DEPTH: i32 = 100;
 const WINDOWS: [i32; 4] = [2100, 6300, 10_500, 14_700];
 /// Middle of each light along x, mm. Both are midway between south and north.
 const LIGHTS: [i32; 2] = [4200, 12_600];
-/// Size of a light, mm: eight patches of 0.6 m, whose edges are on the planes that divide the scene
-/// into 14 × 4 environments.
+/// Size of a light, mm: eight patches of 0.6 m, aligned with the planes of 14 × 4 environments.
 const PANEL: [i32; 2] = [2400, 1200];
 /// How far a light hangs below the ceiling, mm.
 const DROP: i32 = 40;

@@ -25,8 +25,7 @@ const HEIGHT: i32 = 3000;
 const DOORWAY: [i32; 2] = [1000, 2100];
 /// Number of tables in a room.
 pub const TABLES: u32 = 4;
-/// Largest number of tables in a room: seven by seven, whose tops are still larger than their
-/// columns.
+/// Largest number of tables in a room: seven by seven, still larger than their columns.
 pub const MOST_TABLES: u32 = 49;
 /// Size of the top of a table that is alone in a room, mm.
 const TABLE: [i32; 2] = [2400, 1600];

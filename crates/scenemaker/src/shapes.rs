@@ -1,5 +1,4 @@
-//! The shapes that scenes are made of: rectangles, boxes and openings in walls, in whole
-//! millimetres.
+//! Shapes of scenes: rectangles, boxes and openings in walls, in whole millimetres.
 
 use Facing::{Down, East, North, South, Up, West};
 

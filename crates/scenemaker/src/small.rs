@@ -45,8 +45,7 @@ pub fn corridor() -> Obj {
     obj
 }
 
-/// Two rooms of 4 × 4 × 3 m, one of them lit, with a hole of 0.5 m, one patch, in the wall between
-/// them.
+/// Two rooms of 4 × 4 × 3 m, one of them lit, joined by a hole of 0.5 m, one patch.
 pub fn hole() -> Obj {
     let mut obj = Obj::default();
     let wall = [4000, 4200];
@@ -82,9 +81,8 @@ fn ceiling_with_light(obj: &mut Obj, ceiling: Rect, u: Span, v: Span) {
 const DEPTH: i32 = 5592;
 const HEIGHT: i32 = 5488;
 
-/// The Cornell box, from the coordinates published by Cornell's Program of Computer Graphics
-/// ("Cornell Box Data"), enlarged ten times to a width of about 5.5 m. Its front is open, as in the
-/// original.
+/// The Cornell box, from the published coordinates of Cornell's Program of Computer Graphics
+/// ("Cornell Box Data"), enlarged ten times to about 5.5 m. Its front is open, as there.
 pub fn cornell() -> Obj {
     let mut obj = Obj::default();
     obj.object("floor");

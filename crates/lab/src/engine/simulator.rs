@@ -229,7 +229,7 @@ const MOST_SHOTS: u64 = 5_000;
 pub fn solved(problem: &Problem, unshot: f64) -> (Light, f64) {
     let whole = &problem.environments[0];
     let (light, _) =
-        radiosity::solve(&problem.space, whole, &problem.hemisphere, unshot, MOST_SHOTS);
+        radiosity::solve(&problem.space, whole, &problem.hemisphere, unshot, MOST_SHOTS, |_| ());
     let patches = 0..whole.patches.len() as u32;
     let radiosity = patches.map(|patch| light.radiosity(whole, patch)).collect();
     let emitted = problem.emitted_power().element_sum();

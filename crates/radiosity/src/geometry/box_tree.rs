@@ -1,8 +1,7 @@
 //! A bounding volume hierarchy: finds the boxes that a bundle of rays can meet.
 //!
 //! It only saves time of the host: no ray of the bundle can hit what is left out. The simulated
-//! processor is charged for the walk through the grid instead. Single precision is enough, with a
-//! margin for its rounding.
+//! processor is charged for the walk through the grid. Single precision, with a margin, is enough.
 
 use fearless_simd::f32x16;
 use fearless_simd::prelude::*;
@@ -46,8 +45,7 @@ pub(crate) struct VisitStack(Vec<u64>);
 struct NarrowPyramid {
     apex: [f32; 3],
     outwards: [[f32; 3]; 4],
-    /// Largest distance, in metres, by which rounding can move a corner to the wrong side of a
-    /// plane.
+    /// Margin for the rounding of the position of a corner, metres.
     margin: f32,
 }
 
@@ -88,9 +86,8 @@ impl BoxTree {
     }
 
     /// Visits the items whose boxes a pyramid meets, nearer boxes first. `visit` returns the
-    /// distance from the apex beyond which further items are not needed, or `None` to stop. Returns
-    /// false if it was stopped. `stack` is working memory, owned by the caller to avoid
-    /// allocations.
+    /// distance from the apex beyond which items are not needed, or `None` to stop; then the result
+    /// is false. `stack` is working memory, to avoid allocations.
     #[inline(always)]
     pub(crate) fn visit<S: Simd>(
         &self,

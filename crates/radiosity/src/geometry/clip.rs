@@ -25,8 +25,7 @@ fn clip(
     kept
 }
 
-/// The part of a convex polygon inside a closed box. New corners are exactly on the planes of the
-/// box.
+/// The part of a convex polygon inside a closed box. New corners are exactly on its planes.
 pub(crate) fn clip_to_box(points: &[DVec3], bounds: &Bounds) -> Vec<DVec3> {
     let mut points = points.to_vec();
     for axis in 0..3 {

@@ -1,18 +1,11 @@
 //! Geometry that knows no scene.
-//!
-//! - `bounds`: axis-aligned boxes
-//! - `ray`: a ray
-//! - `clip`: clipping of convex polygons
-//! - `pyramid`: the four planes around a bundle of rays
-//! - `split`: how boxes are split into groups for the tree
-//! - `box_tree`: a bounding volume hierarchy: which boxes can a bundle of rays meet?
 
-mod bounds;
-mod box_tree;
-mod clip;
-mod pyramid;
-mod ray;
-mod split;
+mod bounds; // axis-aligned boxes
+mod box_tree; // a bounding volume hierarchy: which boxes can a bundle of rays meet?
+mod clip; // clipping of convex polygons
+mod pyramid; // the four planes around a bundle of rays
+mod ray; // a ray
+mod split; // how boxes are split into groups for the tree
 
 pub use bounds::Bounds;
 pub(crate) use box_tree::{BoxTree, VisitStack};

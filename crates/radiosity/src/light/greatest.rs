@@ -4,8 +4,7 @@
 /// on. Changing a value and finding the greatest one take logarithmic time.
 #[derive(Clone, Debug)]
 pub struct Greatest {
-    /// The greatest value at 1, the values from `leaves` on. The children of `i` are at 2 i and 2 i
-    /// + 1.
+    /// The greatest value at 1, the values from `leaves` on. Below `i` are 2 i and 2 i + 1.
     tree: Vec<f64>,
     leaves: usize,
 }

@@ -4,8 +4,7 @@ use crate::mesh::{LocalEnvironment, Patch, Space};
 use crate::scene::Rgb;
 use crate::shoot::{Emitter, Shot};
 
-/// Radiosity and unshot power of the patches of one environment, and where the rest of the energy
-/// went.
+/// Radiosity and unshot power of the patches of one environment, and its energy balance.
 #[derive(Clone, Debug)]
 pub struct Light {
     /// Emitted and reflected power of each patch, shot or not, W: radiosity × area.

@@ -34,8 +34,7 @@ impl Refinement {
     /// Number of rays of a shot of the pilot solution.
     pub const RAYS: u32 = 1_024;
 
-    /// Fraction of the emitted power that the pilot leaves unshot. It would be spread almost
-    /// evenly.
+    /// Fraction of the emitted power that the pilot leaves unshot: it varies little in space.
     const UNSHOT: f64 = 0.05;
 
     /// Largest number of shots of the pilot.
@@ -58,7 +57,7 @@ impl Refinement {
         let pilot = LocalEnvironment::new(space, space.grid.whole(), size);
         let hemisphere = Hemisphere::new(HemisphereKind::Fibonacci, Refinement::RAYS, true)?;
         let (light, shots) =
-            solve(space, &pilot, &hemisphere, Refinement::UNSHOT, Refinement::MOST_SHOTS);
+            solve(space, &pilot, &hemisphere, Refinement::UNSHOT, Refinement::MOST_SHOTS, |_| ());
         let radiosity: Vec<Rgb> =
             (0..pilot.patches.len() as u32).map(|patch| light.radiosity(&pilot, patch)).collect();
         let reflected = pilot.patches.iter().zip(&radiosity).map(|(patch, &radiosity)| {
@@ -80,8 +79,7 @@ impl Refinement {
         LocalEnvironment::meshed(space, block, size, Some(&depth))
     }
 
-    /// How often a slot of a polygon with given edge lengths must be halved: the largest number
-    /// needed anywhere in it.
+    /// How often a slot with given edge lengths must be halved: the most needed anywhere in it.
     fn depth(&self, polygon: u32, slot: &[DVec3], edges: [f64; 2]) -> u32 {
         let Some(piece) = self.pilot.piece(polygon) else { return 0 };
         let Piece { u, v, .. } = self.pilot.pieces[piece as usize];
@@ -109,8 +107,7 @@ fn emission(scene: &Scene, polygon: u32) -> Rgb {
     scene.material_of(polygon).emission
 }
 
-/// Squared error of each patch of the pilot, if it were as large as those of the mesh to refine:
-/// twice as long and twice as wide.
+/// Squared error of each patch, if it were twice as long and wide, as in the mesh to refine.
 fn errors(pilot: &LocalEnvironment, radiosity: &[Rgb]) -> Vec<f64> {
     // Sum and number of squared changes towards the neighbours along u and along v.
     let mut changes = vec![[(0.0, 0u32); 2]; pilot.patches.len()];

@@ -1,5 +1,4 @@
-//! Progressive radiosity in one environment: the traditional approach of §5.2, without virtual
-//! interfaces.
+//! Progressive radiosity in one environment: the traditional approach (§5.2).
 
 use super::greatest::Greatest;
 use super::light::Light;
@@ -7,23 +6,11 @@ use crate::mesh::{LocalEnvironment, Space};
 use crate::shoot::{Hemisphere, Mask, shoot};
 
 /// Repeatedly shoots the patch with the most unshot power, until not more than the fraction
-/// `stop_below` of the emitted power is unshot or `most_shots` are done. Returns the light and the
-/// number of shots.
+/// `stop_below` of the emitted power is unshot or `most_shots` are done. Calls `watch` after each
+/// shot with the unshot fraction. Returns the light and the number of shots.
 ///
 /// `environment` must be the whole grid: light that leaves it is lost.
 pub fn solve(
-    space: &Space,
-    environment: &LocalEnvironment,
-    hemisphere: &Hemisphere,
-    stop_below: f64,
-    most_shots: u64,
-) -> (Light, u64) {
-    solve_watched(space, environment, hemisphere, stop_below, most_shots, |_| ())
-}
-
-/// Like [`solve`], but calls `watch` after each shot with the fraction of the emitted power that is
-/// unshot.
-pub fn solve_watched(
     space: &Space,
     environment: &LocalEnvironment,
     hemisphere: &Hemisphere,

@@ -10,11 +10,9 @@
 /// last step, all light counts as absorbed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DepthBits {
-    /// Steps of 1/32: an error of up to 1.6 % of the light per rounding, down to exp(-7.9) = 0.036
-    /// % of it.
+    /// Steps of 1/32: up to 1.6 % error per rounding, down to exp(-7.9) or 0.036 % of the light.
     Eight,
-    /// Steps of 1/4096: up to 0.012 % of the light per rounding, down to exp(-16) = 0.000011 % of
-    /// it.
+    /// Steps of 1/4096: up to 0.012 % error per rounding, down to exp(-16) of the light.
     Sixteen,
 }
 

@@ -8,8 +8,7 @@ use crate::geometry::{Bounds, Ray};
 pub struct Medium {
     /// Its box, in coordinates local to the origin of the scene.
     pub bounds: Bounds,
-    /// Absorption coefficient σ, 1/m (Beer–Lambert law): after d metres exp(-σd) of the light is
-    /// left.
+    /// Absorption coefficient σ, 1/m: exp(-σd) of the light is left after d metres.
     pub absorption: f64,
 }
 
@@ -25,9 +24,8 @@ pub fn optical_depth(media: &[Medium], ray: &Ray, within: &Bounds, limit: f64) -
     media.iter().map(depth).sum()
 }
 
-/// Distances at which a ray enters and leaves a box, metres. For a ray that misses the box the
-/// second is smaller than the first. A ray inside the plane of an upper side is in the box only if
-/// `closed`.
+/// Distances at which a ray enters and leaves a box, metres; if it misses the box the first is
+/// larger. A ray inside the plane of an upper side is in the box only if `closed`.
 fn passage(ray: &Ray, around: &Bounds, closed: bool) -> [f64; 2] {
     let (mut enters, mut leaves) = (f64::NEG_INFINITY, f64::INFINITY);
     for axis in 0..3 {

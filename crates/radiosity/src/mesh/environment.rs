@@ -42,8 +42,7 @@ impl LocalEnvironment {
         }
     }
 
-    /// The patch of a polygon at a point where a ray hit its front. Every point that a ray can hit
-    /// inside this environment has one.
+    /// The patch of a polygon at a point where a ray inside this environment hit its front.
     pub fn patch_at(&self, polygon: u32, point: DVec3) -> Option<u32> {
         self.patch_of(self.piece(polygon)?, point)
     }

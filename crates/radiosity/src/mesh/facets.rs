@@ -82,8 +82,7 @@ impl Facets {
         &self.edges[facet.first_edge as usize..][..facet.edges as usize]
     }
 
-    /// Distance at which a ray hits a facet, if it is larger than the tolerance and at most
-    /// `limit`.
+    /// Distance at which a ray hits a facet, if between the tolerance and `limit`.
     #[inline]
     pub fn hit(&self, facet: u32, ray: &Ray, limit: f64) -> Option<f64> {
         let t = self.meets_plane(facet, ray, limit)?;
@@ -92,8 +91,7 @@ impl Facets {
         self.edges(f).iter().all(|edge| self.within(f, edge, point)).then_some(t)
     }
 
-    /// Number of edges that are tested for a point in the plane of a facet: up to the first that
-    /// excludes it.
+    /// Number of edges tested for a point in the plane of a facet, until one excludes it.
     pub(crate) fn edges_tested(&self, facet: u32, point: DVec3) -> u32 {
         let f = self.facet(facet);
         let inside = self.edges(f).iter().take_while(|edge| self.within(f, edge, point)).count();

@@ -1,4 +1,4 @@
-//! The regular grid of cells over the scene (§3.4), and the cells that a ray passes.
+//! The regular grid of cells over the scene (§4.2.1), and the cells that a ray passes.
 
 use glam::DVec3;
 
@@ -82,8 +82,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// The planes of a grid of `cells` that just contains a scene. A flat scene gets some
-    /// thickness.
+    /// The planes of a grid of `cells` around a scene. A flat scene gets some thickness.
     pub fn planes(scene: &Scene, cells: [u32; 3]) -> [Vec<f64>; 3] {
         let size = scene.bounds.size();
         let margin = size.map(|s| if s > 0.0 { 0.0 } else { 1e-3 * size.length() });
@@ -169,8 +168,7 @@ impl Grid {
         above.clamp(1, planes.len() - 1) as u32 - 1
     }
 
-    /// The planes, as axis and number, that [`Grid::cell_of`] tests to find the cell of a point, in
-    /// order.
+    /// The planes, as axis and number, that [`Grid::cell_of`] tests for a point, in order.
     pub(crate) fn planes_tested(&self, point: DVec3) -> Vec<(usize, u32)> {
         let mut tested = Vec::new();
         for axis in 0..3 {
@@ -211,8 +209,7 @@ impl Grid {
     #[inline]
     pub fn enter(&self, block: &Block, ray: &Ray, start: [u32; 3]) -> Option<Passage<'_>> {
         let mut cell = start;
-        // The ray is inside once it has crossed into the block on every axis: the last of these
-        // crossings.
+        // A ray enters with its last crossing into the block on any axis.
         let mut entry = (f64::NEG_INFINITY, 0);
         for axis in 0..3 {
             let plane = if start[axis] < block.low[axis] {

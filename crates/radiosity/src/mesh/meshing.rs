@@ -1,5 +1,4 @@
-//! Meshing of a local environment: cuts its polygons out of the scene and divides them into
-//! quad-trees of patches.
+//! Meshing of a local environment: divides its polygons into quad-trees of patches.
 
 use glam::DVec3;
 
@@ -151,8 +150,7 @@ impl LocalEnvironment {
         });
     }
 
-    /// Adds a patch for each leaf that has one, and enters it in its slots. All other slots get the
-    /// nearest patch.
+    /// Adds the patches of leaves and enters them in their slots. Other slots get the nearest one.
     fn push_leaves(&mut self, leaves: &[(Leaf, Option<Patch>)], [nu, nv]: [u32; 2], kept: bool) {
         let first = self.patches.len() as u32;
         let mut of_slot = vec![None; (nu * nv) as usize];

@@ -1,24 +1,14 @@
-//! The division of space into cells (§3.4) and of surfaces into patches (§4.2.1).
-//!
-//! - `grid`: the regular grid over the scene, and the cells that a ray passes
-//! - `facets`: polygons in the form that ray tests read
-//! - `space`: a scene sorted into the grid
-//! - `patch`: a patch, and the size of patches
-//! - `piece`: the part of a polygon in an environment, with its quad-tree of patches
-//! - `environment`: a local environment: a block of cells and the patches of its polygons
-//! - `meshing`: cuts polygons out of the scene and divides them into patches
-//! - `outline`: the corners of a patch
-//! - `parts`: a patch divided into several emitters
+//! The division of space into cells and of surfaces into patches (§4.2.1).
 
-mod environment;
-mod facets;
-mod grid;
-mod meshing;
-mod outline;
-mod parts;
-mod patch;
-mod piece;
-mod space;
+mod environment; // a local environment: a block of cells and the patches of its polygons
+mod facets; // polygons in the form that ray tests read
+mod grid; // the regular grid over the scene, and the cells that a ray passes
+mod meshing; // cuts polygons out of the scene and divides them into patches
+mod outline; // the corners of a patch
+mod parts; // a patch divided into several emitters
+mod patch; // a patch, and the size of patches
+mod piece; // the part of a polygon in an environment, with its quad-tree of patches
+mod space; // a scene sorted into the grid
 
 pub use environment::LocalEnvironment;
 pub(crate) use facets::Facet;

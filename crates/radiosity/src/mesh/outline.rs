@@ -38,7 +38,7 @@ impl LocalEnvironment {
 #[cfg(test)]
 mod tests {
     use crate::geometry::area_and_centroid;
-    use crate::{Face, LocalEnvironment, Material, PatchSize, Rgb, Scene, Space};
+    use crate::{Face, LocalEnvironment, Material, PatchSize, Scene, Space};
     use glam::DVec3;
 
     /// Outlines have the areas and centroids of their patches, also when cut by interfaces.
@@ -48,12 +48,7 @@ mod tests {
         let points = points.map(DVec3::from);
         let face = |points: &[DVec3]| Face { points: points.to_vec(), material: 0, object: 0 };
         let faces = [face(&points[..3]), face(&[points[0], points[2], points[3]])];
-        let material = Material {
-            name: "grey".to_owned(),
-            reflectance: Rgb::splat(0.5),
-            emission: Rgb::ZERO,
-            two_sided: true,
-        };
+        let material = Material { two_sided: true, ..Material::default() };
         let scene = Scene::new(&faces, vec![material], vec!["object".to_owned()]).unwrap().0;
         let space = Space::new(scene, [4, 2, 2]);
         let mut cut = space.grid.whole();

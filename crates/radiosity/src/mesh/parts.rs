@@ -1,5 +1,4 @@
-//! A patch divided into several emitters. Shooting only from its centre is inaccurate for surfaces
-//! close to it.
+//! A patch divided into several emitters, for accuracy on surfaces close to it.
 
 use glam::DVec3;
 
@@ -45,8 +44,7 @@ impl LocalEnvironment {
     /// Number of parts in both directions, 1 to `most`, so that no polygon in front of the patch is
     /// nearer to its centre than `edges` times the longer edge of a part.
     ///
-    /// All polygons of the scene count, also hidden ones, so that the result does not depend on the
-    /// decomposition.
+    /// Hidden polygons count too, so that the result does not depend on the decomposition.
     pub fn parts_needed(&self, space: &Space, patch: u32, edges: f64, most: u32) -> u32 {
         let outline = self.outline(space, patch);
         if outline.is_empty() || most <= 1 {
@@ -63,8 +61,7 @@ impl LocalEnvironment {
         }
     }
 
-    /// Distance from the centre of a patch to the nearest polygon in front of it, if within
-    /// `reach`.
+    /// Distance from a patch's centre to the nearest polygon in front of it, if within `reach`.
     fn nearest_in_front(&self, space: &Space, patch: u32, reach: f64) -> Option<f64> {
         let scene = &space.scene;
         let patch = &self.patches[patch as usize];

@@ -58,9 +58,8 @@ impl Camera {
                 bounds.size() * (DVec3::from_array(high) - 0.5)
             })
         };
-        // With the camera at distance d behind the centre and shifted by s, a corner at (side,
-        // depth) is in the picture if |side - s| <= slope (depth + d). This is the smallest d for
-        // which an s exists.
+        // At distance d behind the centre and shift s, a corner at (side, depth) is in the picture
+        // if |side - s| <= slope (depth + d). This is the smallest d for which an s exists.
         let fit = |axis: DVec3, slope: f64| {
             let slope = slope * FILLED;
             let most = corners().map(|c| c.dot(axis) - slope * c.dot(view.forward));

@@ -52,9 +52,8 @@ pub struct PictureError {
 
 /// Draws what the camera sees.
 ///
-/// Polygons are visible only from their fronts, so that a camera above a room sees through its
-/// ceiling. `colour` returns the radiosity, W/m², of a polygon (by its index) at a point (local
-/// coordinates).
+/// Only fronts are visible, so that a camera above a room sees through its ceiling. `colour`
+/// returns the radiosity, W/m², of a polygon (by index) at a point (local coordinates).
 ///
 /// # Errors
 /// A picture without pixels or with more than 8192 pixels along a side.

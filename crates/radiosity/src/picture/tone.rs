@@ -15,12 +15,10 @@ pub enum Exposure {
 /// How brightness above middle grey is compressed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Tone {
-    /// Reinhard et al. 2002, equation 4, applied to the luminance, so that hues do not change. Six
-    /// times middle grey is white.
+    /// Reinhard et al. 2002, equation 4, of the luminance. Six times middle grey is white.
     #[default]
     Reinhard,
-    /// Proportional, with middle grey at 0.18, clipped at 1. Radiosities can be read back from the
-    /// picture.
+    /// Proportional, middle grey at 0.18, clipped at 1: pictures can be read as radiosities.
     Linear,
 }
 
@@ -48,9 +46,8 @@ fn luminance(rgb: Rgb) -> f64 {
     rgb.dot(Rgb::new(0.2126, 0.7152, 0.0722))
 }
 
-/// The weighted geometric mean of the luminance of radiosities, W/m², used as middle grey. Values
-/// are at least a twentieth of the arithmetic mean; otherwise dark rooms would make the others too
-/// bright.
+/// The weighted geometric mean luminance, W/m², used as middle grey. Values below a twentieth of
+/// the arithmetic mean are raised to it, so that dark rooms do not make others too bright.
 pub(crate) fn geometric_mean(seen: &(impl Iterator<Item = (Rgb, f64)> + Clone)) -> f64 {
     let weight: f64 = seen.clone().map(|(_, weight)| weight).sum();
     let seen = || seen.clone().map(|(rgb, weight)| (luminance(rgb), weight));

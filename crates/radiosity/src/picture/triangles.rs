@@ -1,5 +1,4 @@
-//! A mesh of triangles with radiosity at the vertices, built from patches, for pictures and other
-//! viewers.
+//! A mesh of triangles with radiosity at the vertices, built from patches.
 
 use std::collections::BTreeMap;
 
@@ -72,8 +71,7 @@ impl<'a> Mesh<'a> {
         self.fans.iter().flatten().flat_map(|fan| triangles(fan))
     }
 
-    /// Radiosity of the vertices, W/m², from the radiosities of the patches, by environment and
-    /// patch.
+    /// Radiosity of the vertices from that of the patches, by environment and patch, W/m².
     pub fn light(&self, radiosity: &[Vec<Rgb>]) -> Vec<Rgb> {
         let mut sums = vec![(Rgb::ZERO, 0.0); self.vertices.positions.len()];
         let patches = self.environments.iter().flat_map(|e| &e.patches);
@@ -95,8 +93,7 @@ impl<'a> Mesh<'a> {
         light
     }
 
-    /// Vertices of each patch, environment after environment: its middle, then its corners. Empty
-    /// for a patch without area.
+    /// The fan of each patch, environment after environment: its middle, then its corners.
     pub fn fans(&self) -> impl Iterator<Item = &[u32]> {
         self.fans.iter().flatten().map(Vec::as_slice)
     }
@@ -130,8 +127,7 @@ fn triangles(fan: &[u32]) -> impl Iterator<Item = [u32; 3]> {
     corners.iter().zip(next).map(|(&corner, &next)| [fan[0], corner, next])
 }
 
-/// The mean of values at corners along the edges between them. It does not change if an edge is
-/// divided in two.
+/// The mean along the edges between corners. Dividing an edge in two does not change it.
 fn mean_along(corners: impl Iterator<Item = (DVec3, DVec3)> + Clone) -> DVec3 {
     let next = corners.clone().cycle().skip(1);
     let (mut sum, mut length) = (DVec3::ZERO, 0.0);

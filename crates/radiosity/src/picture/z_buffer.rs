@@ -73,8 +73,7 @@ impl ZBuffer {
         }
     }
 
-    /// Column and row of a point in front of the eye. The centre of a sample is at its index plus
-    /// 0.5.
+    /// Column and row of a point in front of the eye. Centres of samples are at index + 0.5.
     fn project(&self, point: DVec3) -> [f64; 2] {
         let View { forward, right, up, slopes } = self.view;
         let offset = point - self.eye;

@@ -12,8 +12,7 @@ use super::scene::{Face, Material, Plane, Polygon, Scene};
 use super::warnings::{WarningKind, Warnings};
 use crate::geometry::Bounds;
 
-/// A face is planar if no corner is farther from its plane than this fraction of the size of the
-/// face.
+/// Largest distance of a corner from the plane of a planar face, relative to the size of the face.
 const FLATNESS: f64 = 1e-6;
 
 impl Scene {
@@ -279,9 +278,8 @@ impl Cleaner<'_> {
             || self.points(ring).all(|p| (plane.normal.dot(p) - plane.offset).abs() <= slack)
     }
 
-    /// Whether the ring turns left at every corner and goes around once. It goes around once if
-    /// each corner is left of the first edge and the triangle fan from the first corner never turns
-    /// back.
+    /// Whether the ring turns left at every corner and goes around once: each corner is left of the
+    /// first edge and the triangle fan from the first corner never turns back.
     fn is_convex(&self, ring: &[u32], plane: Plane) -> bool {
         let left = |a: u32, b: u32, c: u32| {
             let (a, b, c) = (self.at(a), self.at(b), self.at(c));
@@ -295,8 +293,7 @@ impl Cleaner<'_> {
 
     /// Triangles that cover a ring, with the same front.
     fn triangles(&mut self, ring: &[u32], plane: Plane, place: impl FnOnce() -> String) -> Pieces {
-        // Projected along the largest component of the normal, so that the shape does not
-        // degenerate.
+        // Projected along the largest component of the normal.
         let facing = plane.normal.abs().max_position();
         let flat: Vec<[f64; 2]> =
             self.points(ring).map(|p| [p[(facing + 1) % 3], p[(facing + 2) % 3]]).collect();

@@ -5,10 +5,9 @@ use super::scene::{Plane, Polygon};
 /// Components of unit normals that differ by less count as equal.
 const NORMALS: f64 = 1e-9;
 
-/// Replaces planes that differ only by rounding by the plane of the largest polygon among them. A
-/// ray then meets all of them at exactly the same distance, so the rules for equal distances
-/// decide, not rounding. Axis-aligned polygons share their planes already, since corners are welded
-/// for each axis.
+/// Replaces planes that differ only by rounding by the plane of the largest polygon among them, so
+/// that a ray meets all of them at the same distance and the rules for equal distances decide.
+/// Axis-aligned polygons share planes already, since corners are welded for each axis.
 pub(crate) fn share_planes(polygons: &mut [Polygon], tolerance: f64) {
     let slanted = |polygon: &Polygon| polygon.plane.normal.abs().max_element() < 1.0;
     let numbers: Vec<usize> = (0..polygons.len()).filter(|&i| slanted(&polygons[i])).collect();
@@ -50,7 +49,7 @@ mod tests {
     use glam::DVec3;
 
     use super::*;
-    use crate::scene::{Face, Material, Rgb, Scene};
+    use crate::scene::{Face, Material, Scene};
 
     /// Overlapping triangles in slanted planes, facing both ways, share one plane to the bit.
     #[test]
@@ -69,9 +68,8 @@ mod tests {
             triangle([[0.2, 0.1], [0.7, 1.9], [1.3, 0.3]], 0.0),
             triangle([[0.0, 0.0], [1.0, 0.1], [0.3, 0.9]], 0.1),
         ];
-        let (reflectance, emission) = (Rgb::splat(0.5), Rgb::ZERO);
-        let grey = Material { name: "grey".to_owned(), reflectance, emission, two_sided: false };
-        let (scene, _) = Scene::new(&faces, vec![grey], vec!["all".to_owned()]).expect("a scene");
+        let (materials, objects) = (vec![Material::default()], vec!["all".to_owned()]);
+        let (scene, _) = Scene::new(&faces, materials, objects).expect("a scene");
         let planes: Vec<Plane> = scene.polygons.iter().map(|polygon| polygon.plane).collect();
         assert_eq!(planes[0], planes[1]);
         assert_eq!(planes[0], planes[2].reversed());

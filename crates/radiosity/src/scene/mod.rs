@@ -1,25 +1,15 @@
 //! Scenes: read from OBJ and MTL files, and cleaned for the method.
-//!
-//! - `scene`: materials, planes, polygons, scenes
-//! - `error`: why files or faces do not make a scene
-//! - `warnings`: what cleaning dropped, changed or replaced
-//! - `coplanar`: one plane, equal to the bit, for polygons that share a plane
-//! - `clean`: from faces to polygons: welded, convex, planar, without duplicates
-//! - `text`: text files, and lines in them
-//! - `mtl`: material files
-//! - `obj`: Wavefront OBJ files
 
-mod clean;
-mod coplanar;
-mod error;
-mod mtl;
-mod obj;
-mod scene;
-mod text;
-mod warnings;
+mod clean; // from faces to polygons: welded, convex, planar, without duplicates
+mod coplanar; // one plane, equal to the bit, for polygons that share a plane
+mod error; // why files or faces do not make a scene
+mod mtl; // material files
+mod obj; // Wavefront OBJ files
+mod scene; // materials, planes, polygons, scenes
+mod text; // text files, and lines in them
+mod warnings; // what cleaning dropped, changed or replaced
 
 pub use error::SceneError;
-pub use mtl::DEFAULT_REFLECTANCE;
 pub use obj::{load_obj, load_obj_from};
-pub use scene::{Face, Material, Plane, Polygon, Rgb, Scene};
+pub use scene::{DEFAULT_REFLECTANCE, Face, Material, Plane, Polygon, Rgb, Scene};
 pub use warnings::{Warning, WarningKind, Warnings};

@@ -9,25 +9,12 @@ use std::path::{Path, PathBuf};
 use tobj::MTLLoadResult;
 
 use super::error::SceneError;
-use super::scene::{Material, Rgb};
+use super::scene::{DEFAULT_REFLECTANCE, Material, Rgb};
 use super::text::{self, Reader};
 use super::warnings::{WarningKind, Warnings};
 
-/// Reflectance of a material without `Kd`, and of the material used for faces without one.
-pub const DEFAULT_REFLECTANCE: Rgb = Rgb::splat(0.5);
-
 /// The extension: name of the parameter.
 const TWO_SIDED: &str = "virtwall_two_sided";
-
-/// Material for faces without one: grey, not emitting, one-sided.
-pub(crate) fn default_material() -> Material {
-    Material {
-        name: "default".to_owned(),
-        reflectance: DEFAULT_REFLECTANCE,
-        emission: Rgb::ZERO,
-        two_sided: false,
-    }
-}
 
 /// Reads material files when tobj finds their names, and collects warnings and the first error.
 #[derive(Default)]
@@ -88,7 +75,7 @@ fn relevant_lines(path: &Path, text: &str) -> Result<String, SceneError> {
             }
             Some(key @ ("Kd" | "Ke")) => {
                 let value = colour(key, &words.collect::<Vec<_>>()).map_err(wrong)?;
-                let mut material = Material { name: name.clone(), ..default_material() };
+                let mut material = Material { name: name.clone(), ..Material::default() };
                 match key {
                     "Kd" => material.reflectance = value,
                     _ => material.emission = value,

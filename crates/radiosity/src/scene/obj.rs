@@ -6,6 +6,7 @@
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::io::Cursor;
 use std::path::Path;
 use std::{fs, io};
 
@@ -13,9 +14,9 @@ use glam::DVec3;
 use tobj::{LoadError, LoadOptions, Model};
 
 use super::error::{FARTHEST, SceneError};
-use super::mtl::{self, Library};
+use super::mtl::Library;
 use super::scene::{Face, Material, Scene};
-use super::text::{self, Lines};
+use super::text;
 use super::warnings::{WarningKind, Warnings};
 
 /// Reads a scene from an OBJ file and its material files, whose paths are relative to the OBJ file.
@@ -44,21 +45,22 @@ pub fn load_obj_from(
     let folder = path.parent().unwrap_or(Path::new(""));
     let library = RefCell::new(Library::default());
 
-    let mut lines = Lines { rest: text.as_bytes(), read: 0 };
-    let loaded = tobj::load_obj_buf(&mut lines, &LoadOptions::default(), |name| {
+    let mut bytes = Cursor::new(text.as_bytes());
+    let loaded = tobj::load_obj_buf(&mut bytes, &LoadOptions::default(), |name| {
         library.borrow_mut().load(&folder.join(name), reader)
     });
     let mut library = library.into_inner();
     if let Some(error) = library.error {
         return Err(error);
     }
-    let (models, materials) = loaded.map_err(|error| diagnose(path, &text, lines.read, error))?;
+    let (models, materials) =
+        loaded.map_err(|error| diagnose(path, &text, bytes.position(), error))?;
     let materials = materials.unwrap_or_default();
     let mut materials: Vec<Material> = materials.iter().map(|m| library.material(m)).collect();
 
     let Faces { faces, objects, warnings } = Faces::of(&models, &materials, &text);
     if warnings.count(WarningKind::MissingMaterial) > 0 {
-        materials.push(mtl::default_material());
+        materials.push(Material::default());
     }
     let (scene, cleaned) = Scene::new(&faces, materials, objects).map_err(|error| {
         let line = matches!(error, SceneError::Corner { .. }).then(|| far_vertex(&text)).flatten();
@@ -111,8 +113,7 @@ struct Faces {
 }
 
 impl Faces {
-    /// Groups with the same name become one object. Faces without a material get the index after
-    /// the last material.
+    /// Groups of the same name are one object. Faces without a material get the next index.
     fn of(models: &[Model], materials: &[Material], text: &str) -> Faces {
         let mut all =
             Faces { faces: Vec::new(), objects: Vec::new(), warnings: Warnings::default() };
@@ -161,14 +162,15 @@ fn unknown_material(text: &str, materials: &[Material]) -> String {
     })
 }
 
-/// Turns an error of tobj, which names neither line nor value, into one that does.
-fn diagnose(path: &Path, text: &str, line: usize, error: LoadError) -> SceneError {
+/// Turns an error of tobj, which stopped after `read` bytes, into one with line and value.
+fn diagnose(path: &Path, text: &str, read: u64, error: LoadError) -> SceneError {
     if error == LoadError::FaceVertexOutOfBounds
         && let Some((line, problem)) = wrong_index(text)
     {
         return text::wrong(path, Some(line), problem);
     }
-    let found = text.lines().nth(line.saturating_sub(1)).unwrap_or_default();
+    let before = &text[..read as usize];
+    let (line, found) = (1..).zip(before.lines()).last().unwrap_or_default();
     let expected = match found.split_whitespace().next() {
         Some("v") => "expected three numbers: v X Y Z",
         Some("f") => "expected numbers of vertices: f 1 2 3, or f 1/1/1 2/2/2 3/3/3",
@@ -178,8 +180,7 @@ fn diagnose(path: &Path, text: &str, line: usize, error: LoadError) -> SceneErro
     text::wrong(path, Some(line), format!("\"{found}\": {error}; {expected}"))
 }
 
-/// The first face with a vertex that does not exist or, if there is none, that is defined after the
-/// face.
+/// The first face with a vertex that does not exist or, failing that, is defined later.
 fn wrong_index(text: &str) -> Option<(usize, String)> {
     let total = text.lines().filter(|line| is_vertex(line)).count() as i64;
     let search = |forward: bool| {

@@ -5,8 +5,7 @@ use glam::DVec3;
 use crate::geometry::Bounds;
 use crate::media::Medium;
 
-/// Red, green, blue: a reflectance (0 to 1), a radiosity (W/m²) or a power (W), depending on
-/// context.
+/// Red, green, blue: a reflectance (0 to 1), a radiosity (W/m²) or a power (W).
 pub type Rgb = DVec3;
 
 /// How a surface reflects and emits light.
@@ -20,6 +19,21 @@ pub struct Material {
     pub emission: Rgb,
     /// Whether both sides reflect and emit. Otherwise the back absorbs all light.
     pub two_sided: bool,
+}
+
+/// Reflectance of materials and faces that have none.
+pub const DEFAULT_REFLECTANCE: Rgb = Rgb::splat(0.5);
+
+impl Default for Material {
+    /// The material of faces without one: grey, not emitting, one-sided.
+    fn default() -> Material {
+        Material {
+            name: "default".to_owned(),
+            reflectance: DEFAULT_REFLECTANCE,
+            emission: Rgb::ZERO,
+            two_sided: false,
+        }
+    }
 }
 
 /// A plane `normal · p = offset`.
@@ -70,8 +84,7 @@ pub struct Face {
 pub struct Scene {
     /// Welded vertices, local to `origin`.
     pub vertices: Vec<DVec3>,
-    /// Clean polygons: convex, planar, with positive area, without duplicates. A two-sided face is
-    /// stored twice, back to back.
+    /// Clean polygons: convex, planar, of positive area. Two-sided faces are two polygons.
     pub polygons: Vec<Polygon>,
     /// Materials.
     pub materials: Vec<Material>,

@@ -18,8 +18,7 @@ pub enum WarningKind {
     NonPlanar,
     /// A planar face that is not convex: divided into triangles.
     Concave,
-    /// A face whose boundary crosses itself: divided into triangles, which may not cover the
-    /// intended area.
+    /// A face whose boundary crosses itself: divided into triangles, perhaps wrongly.
     SelfCrossing,
     /// A face with the same corners and the same front as another one: dropped.
     Duplicate,

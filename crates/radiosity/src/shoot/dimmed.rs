@@ -9,9 +9,8 @@ use crate::geometry::Ray;
 use crate::media::{DepthBits, optical_depth};
 use crate::mesh::{LocalEnvironment, Space};
 
-/// [`shoot`](crate::shoot) in a scene with media. The light of a ray is reduced by the optical
-/// depth stored in the mask and by the depth of its path through this environment. Outgoing masks
-/// store the sum of both.
+/// [`shoot`](crate::shoot) in a scene with media. The optical depth of a ray is that in the mask
+/// plus that of its path here. Outgoing masks store the sum.
 pub(crate) fn shoot_dimmed(
     space: &Space,
     environment: &LocalEnvironment,

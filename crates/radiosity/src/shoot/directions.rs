@@ -28,8 +28,7 @@ pub(super) fn fibonacci(pixels: u32) -> Vec<DVec3> {
 
 /// Centres of equal sectors of rings of equal area.
 pub(super) fn polar(pixels: u32) -> Vec<DVec3> {
-    // Pixels are about square with four times as many sectors as rings. The nearest divisor is
-    // used.
+    // Pixels are about square with four times as many sectors as rings.
     let wanted = f64::from(pixels / 4).sqrt().max(1.0) as u32;
     let rings = (1..=wanted).rev().find(|rings| pixels.is_multiple_of(*rings)).unwrap_or(1);
     let sectors = pixels / rings;
@@ -59,8 +58,7 @@ pub(super) fn concentric_pixel(side: u32, i: u32) -> DVec3 {
     }
 }
 
-/// Inverse of the concentric map: from the two tangential components of a direction to a point of
-/// the square [-1, 1]².
+/// Inverse of the concentric map: from tangential components to the square [-1, 1]².
 pub(crate) fn unlifted(x: f64, y: f64) -> [f64; 2] {
     let r = (x * x + y * y).sqrt();
     if r == 0.0 {

@@ -6,8 +6,7 @@ use crate::shoot::bundle::WIDTH;
 /// One form factor for each place (a patch, the backs, the outside, a side): the sum of the weights
 /// of the pixels whose rays end there.
 pub(crate) enum FormFactors<'a> {
-    /// Pixels of equal weight are only counted. `sums[n]` is the sum of `n` weights, added one by
-    /// one.
+    /// Pixels of equal weight are counted. `sums[n]` is the sum of `n`, added one by one.
     Counted { pixels: Vec<u32>, sums: &'a [f64] },
     /// Pixels are added one by one. Unequal weights are rounded so that the order does not matter.
     Summed { sums: Vec<f64>, weights: &'a [f64] },

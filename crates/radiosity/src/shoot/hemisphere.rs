@@ -14,8 +14,7 @@ use crate::shoot::bundle::{Bundles, LANES, WIDTH};
 /// hemicube are cosine-weighted, so that all pixels have the same form factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HemisphereKind {
-    /// A Fibonacci spiral on the unit disc, projected up onto the hemisphere: the most even of
-    /// these sets.
+    /// A Fibonacci spiral on the unit disc, projected up: the most even of these sets.
     Fibonacci,
     /// The upper half of a cube around the emitter, weighted by delta form factors.
     Hemicube,
@@ -37,11 +36,9 @@ pub struct Hemisphere {
     pub weights: Vec<f64>,
     /// If all pixels have the same weight: the sums of 0, 1, 2, ... of them, added one by one.
     pub(crate) sums: Option<Vec<f64>>,
-    /// Whether the set is rotated about the normal by an angle derived from the position of the
-    /// emitter.
+    /// Whether the set is rotated about the normal by an angle derived from the position.
     pub rotated: bool,
-    /// Whether it is oriented by the position of the emitter instead of the axes: see
-    /// [`Hemisphere::by_axes`].
+    /// Whether it is oriented by the position, not the axes: see [`Hemisphere::by_axes`].
     by_position: bool,
 }
 
@@ -61,8 +58,7 @@ pub struct HemisphereError {
 pub const MOST_PIXELS: u32 = 1 << 24;
 
 impl Hemisphere {
-    /// A hemisphere of `pixels` pixels. A hemicube uses the largest number, up to `pixels`, that
-    /// fills its faces.
+    /// A hemisphere of `pixels` pixels. A hemicube has at most as many, to fill its faces.
     ///
     /// # Errors
     /// A number of pixels that is not possible for this kind.
@@ -124,9 +120,8 @@ impl Hemisphere {
         Hemisphere { bundles, directions, weights, sums, rotated, by_position: true }
     }
 
-    /// The same directions, oriented by the coordinate axes. By default they are oriented by the
-    /// position of the emitter relative to the centre of the scene, so that a rotated scene gets
-    /// the same rays, rotated.
+    /// The same directions, oriented by the axes. By default they are oriented by the emitter's
+    /// position relative to the centre of the scene, so that they rotate with the scene.
     pub fn by_axes(self) -> Hemisphere {
         Hemisphere { by_position: false, ..self }
     }
@@ -174,8 +169,7 @@ impl Hemisphere {
     }
 }
 
-/// A unit vector perpendicular to a normal, derived from the axis with the smallest component of
-/// it.
+/// A unit vector perpendicular to a normal, from the axis with its smallest component.
 fn perpendicular(normal: DVec3) -> DVec3 {
     let least = if normal.x.abs() <= normal.y.abs() && normal.x.abs() <= normal.z.abs() {
         DVec3::X
@@ -187,9 +181,8 @@ fn perpendicular(normal: DVec3) -> DVec3 {
     least.cross(normal).normalize()
 }
 
-/// Cosine and sine of an angle derived from coordinates. It is the direction of a pseudo-random
-/// point of the unit disc: this needs only exactly rounded operations, so that all machines compute
-/// the same bits.
+/// Cosine and sine of an angle derived from coordinates: the direction of a pseudo-random point of
+/// the unit disc. All operations are exactly rounded, so all machines get the same bits.
 fn angle_from(coordinates: &[f64]) -> (f64, f64) {
     let mut state = coordinates.iter().fold(0x9e37_79b9_7f4a_7c15, |state, coordinate| {
         scramble(state ^ (coordinate + 0.0).to_bits())

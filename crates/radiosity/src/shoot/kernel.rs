@@ -73,9 +73,8 @@ fn shoot_on<S: Simd>(
     shot.tally.finish()
 }
 
-/// Number of polygons tested for a bundle before its rays are cast one by one. That is about two
-/// thirds of the number at which both cost the same, if a single ray is tested against a dozen
-/// polygons.
+/// Number of polygons tested for a bundle before its rays are cast one by one: about two thirds of
+/// where both cost the same, if a single ray is tested against a dozen.
 const MOST_POLYGONS: usize = 128;
 
 /// A shot in progress.
@@ -94,8 +93,7 @@ struct BundleShot<'a> {
 }
 
 impl BundleShot<'_> {
-    /// Tests the bundle against the polygons that it can meet, near ones first. Returns false if
-    /// there are too many.
+    /// Tests the bundle against the polygons it can meet, near ones first; false if too many.
     #[inline(always)]
     fn find_nearest<S: Simd>(&mut self, simd: S, cast: u64) -> bool {
         let BundleShot { space, environment, own_piece, rays, nearest, stack, .. } = self;
@@ -157,14 +155,8 @@ mod tests {
         let plate = [[0.2, 0.2], [0.2, 0.5], [0.7, 0.5], [0.7, 0.2]];
         faces.push(plate.iter().map(|&[x, y]| DVec3::new(x, y, 0.25)).collect());
         let faces = faces.into_iter().map(|points| Face { points, material: 0, object: 0 });
-        let material = Material {
-            name: "grey".to_owned(),
-            reflectance: Rgb::splat(0.5),
-            emission: Rgb::ZERO,
-            two_sided: false,
-        };
         let faces: Vec<Face> = faces.collect();
-        let scene = Scene::new(&faces, vec![material], vec!["all".to_owned()]);
+        let scene = Scene::new(&faces, vec![Material::default()], vec!["all".to_owned()]);
         Space::new(scene.expect("a closed box").0, [5, 4, 3])
     }
 

@@ -2,9 +2,8 @@
 
 use crate::media::DepthBits;
 
-/// One bit for each pixel of a hemisphere. True means that nothing has blocked the ray of the pixel
-/// so far. In a scene with participating media, each pixel also has an integer: the optical depth
-/// so far.
+/// One bit for each pixel of a hemisphere: true while nothing has blocked its ray. In a scene with
+/// participating media, each pixel also has the optical depth so far, as an integer.
 ///
 /// Paper: §3.2, Figure 2.
 #[doc(alias = "Figure 2")]
@@ -95,9 +94,8 @@ impl Mask {
         self.depths.as_deref().map_or(1.0, left)
     }
 
-    /// Makes a pixel true with the number of steps nearest to an optical depth, and returns the
-    /// fraction of light that is left. Beyond the last step the pixel stays false and nothing is
-    /// left.
+    /// Makes a pixel true with the nearest number of steps to an optical depth. Returns the
+    /// fraction of light left: 0 beyond the last step, where the pixel stays false.
     pub(crate) fn set_depth(&mut self, pixel: u32, depth: f64) -> f64 {
         if let Some(depths) = &mut self.depths {
             let Some(steps) = depths.bits.steps(depth) else { return 0.0 };
@@ -156,8 +154,7 @@ impl Mask {
         })
     }
 
-    /// Makes all pixels true that are true in `other`. Of two optical depths the smaller one is
-    /// kept.
+    /// Makes all pixels true that are true in `other`, with the smaller optical depth.
     pub fn merge(&mut self, other: &Mask) {
         if let (Some(mine), Some(theirs)) = (&mut self.depths, &other.depths) {
             for (mine, theirs) in mine.steps.iter_mut().zip(&theirs.steps) {

@@ -62,8 +62,7 @@ pub(crate) fn cast_pixel(
     }
 }
 
-/// Follows one ray through an environment to the nearest hit or to the side through which it
-/// leaves.
+/// Follows one ray through an environment, to its nearest hit or the side where it leaves.
 pub fn cast(
     space: &Space,
     environment: &LocalEnvironment,
@@ -91,9 +90,8 @@ pub fn cast(
     }
 }
 
-/// The nearest polygon that a ray hits inside a cell. Of polygons at the same distance, fronts
-/// precede backs, then the lower index decides: each point of coplanar surfaces belongs to one
-/// polygon.
+/// The nearest polygon that a ray hits inside a cell. At equal distances, fronts precede backs,
+/// then lower indices precede, so that each point of coplanar surfaces has one owner.
 #[inline]
 fn nearest_hit(
     space: &Space,

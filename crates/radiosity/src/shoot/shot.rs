@@ -28,8 +28,7 @@ pub struct Emitter {
     pub radiosity: Rgb,
 }
 
-/// Result of shooting an emitter through one environment. It depends only on geometry, so it can be
-/// stored and reused for any power.
+/// Result of shooting an emitter through one environment. It does not depend on its power.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shot {
     /// Patches hit, in increasing order, and the form factor of each.

@@ -34,8 +34,7 @@ pub enum Record {
         /// Index among the planes of that axis.
         plane: u32,
     },
-    /// The edges of a polygon whose plane the ray meets in this cell, up to the first that excludes
-    /// the point.
+    /// The edges of a polygon whose plane the ray meets in this cell, until one excludes it.
     Edges {
         /// Index of the polygon.
         polygon: u32,
@@ -51,13 +50,11 @@ pub enum Record {
     },
     /// The copy of the mask for a neighbour (§4.2.3).
     Copy,
-    /// The direction of a pixel still true and its bit in that copy, for the test against the plane
-    /// of the neighbour.
+    /// A pixel's direction and bit in that copy, tested against the neighbour's plane.
     PlaneTest(u32),
 }
 
-/// Calls `touch` for every record, in the order in which [`shoot_plainly`](crate::shoot_plainly)
-/// uses them.
+/// Calls `touch` for every record, in the order of [`shoot_plainly`](crate::shoot_plainly).
 pub fn trace(
     space: &Space,
     environment: &LocalEnvironment,
@@ -86,8 +83,7 @@ pub fn trace(
     }
 }
 
-/// Follows a ray from an emitter in the cell `start`. Returns the side through which it leaves, if
-/// any.
+/// Follows a ray from an emitter in cell `start`. Returns the side where it leaves, if any.
 fn trace_ray(
     space: &Space,
     environment: &LocalEnvironment,
@@ -122,8 +118,7 @@ fn trace_ray(
     }
 }
 
-/// The nearest polygon of a cell that the ray hits before `exit`. The choice among coplanar ones
-/// does not matter here.
+/// The nearest polygon of a cell that a ray hits before `exit`, any one of coplanar ones.
 fn nearest_hit(
     space: &Space,
     polygons: impl Iterator<Item = u32>,

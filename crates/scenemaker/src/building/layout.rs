@@ -96,8 +96,7 @@ impl<'a> Layout<'a> {
         Layout { plan, rng, south, north, cross, spine }
     }
 
-    /// Stair wells and atrium. Arches lead into the atrium on the lowest floor. On other floors
-    /// they have parapets.
+    /// Stair wells, and the atrium with arches to it. Above the lowest floor they have parapets.
     fn shafts(&mut self) {
         let floor = self.plan.floor();
         for x in [column::STAIRS, mirrored(column::STAIRS)] {

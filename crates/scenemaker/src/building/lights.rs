@@ -1,5 +1,4 @@
-//! The lights of the building, one thousand on five floors. Each is one panel in the grid of
-//! ceiling tiles.
+//! One thousand lights on five floors, each a panel in the grid of ceiling tiles.
 
 use crate::obj::Obj;
 use crate::palette::LIGHT;
@@ -18,9 +17,8 @@ const PANEL: i32 = 580;
 /// How far a panel hangs below the ceiling, mm.
 const DROP: i32 = 30;
 
-/// Choice: how the lights are distributed. Every space gets a number that depends on its use. The
-/// remaining lights are evenly spaced along all corridors. So floors with many offices have more
-/// lights.
+/// Choice: how the lights are distributed. A space gets a number by its use. The remaining lights
+/// are evenly spaced along all corridors. So floors with many offices have more lights.
 fn lights_in(usage: Use) -> usize {
     match usage {
         Use::Office | Use::Shared => 2,

@@ -6,18 +6,12 @@
 //! without windows, two stair wells, and an atrium through all floors. Low floors have a few halls
 //! and laboratories, high floors many small offices. A building of more than five floors repeats
 //! this sequence, with the same shafts.
-//!
-//! - `dimensions`: dimensions, and the bands and columns of the plan
-//! - `space`: the spaces of a storey and the openings between them
-//! - `layout`: the layout of a storey
-//! - `stairs`: stair wells
-//! - `lights`: one thousand lights
 
-mod dimensions;
-mod layout;
-mod lights;
-mod space;
-mod stairs;
+mod dimensions; // dimensions, and the bands and columns of the plan
+mod layout; // the layout of a storey
+mod lights; // one thousand lights
+mod space; // the spaces of a storey and the openings between them
+mod stairs; // stair wells
 
 use crate::obj::Obj;
 use crate::stream::stream;

@@ -1,5 +1,5 @@
-//! Finds the cells in which the rays of a bundle enter a block: [`Grid::enter`](crate::Grid::enter)
-//! for 64 rays at a time.
+//! Finds the cells in which the rays of a bundle enter a block, as
+//! [`Grid::enter`](crate::Grid::enter).
 
 use fearless_simd::prelude::*;
 
@@ -12,8 +12,7 @@ use super::rays::Rays;
 pub(crate) struct Entry {
     /// Each cell with the rays that enter in it.
     pub(crate) cells: Vec<([u32; 3], u64)>,
-    /// Working memory: for both axes of a side, the rays that enter through it, by cell on that
-    /// axis.
+    /// Working memory: rays by the cell in which they enter, for both axes of a side.
     columns: [Vec<(u32, u64)>; 2],
 }
 
@@ -25,8 +24,7 @@ struct Outside<'a> {
 }
 
 impl Entry {
-    /// Finds the cells in which rays with the same headings enter a block from outside. Returns the
-    /// rays that never enter.
+    /// Finds where rays with the same headings enter a block. Returns those that never do.
     #[inline(always)]
     pub(crate) fn find<S: Simd>(
         &mut self,
@@ -100,8 +98,7 @@ impl Outside<'_> {
             return;
         }
         let up = self.headings[axis] == Heading::Up;
-        // From the first cell of the block that they can reach to the last. The grid ends at
-        // `last`.
+        // From the first reachable cell of the block to the last. The grid ends at `last`.
         let (low, high) = (self.view.block.low[axis], self.view.block.high[axis]);
         let last = if up { self.view.grid.cells()[axis] - 1 } else { 0 };
         let (mut cell, end) =

@@ -13,8 +13,7 @@ pub(crate) struct GridView<'a> {
     pub(crate) block: Block,
     /// The cell of the emitter.
     pub(crate) start: [u32; 3],
-    /// Coordinates of all planes relative to the emitter, axis after axis. The last entry is a
-    /// plane that is never crossed.
+    /// Coordinates of all planes relative to the emitter, by axis; then one never crossed.
     pub(crate) planes: Vec<f64>,
     /// Index of the first plane of each axis, and of the last entry.
     pub(crate) first: [u32; 4],

@@ -12,8 +12,7 @@ pub(crate) enum Heading {
 }
 
 impl Heading {
-    /// The headings of the first of some rays on all axes, and the rays that have the same
-    /// headings.
+    /// The headings of the first of some rays on all axes, and the rays that share them.
     pub(crate) fn of_first(rays: &Rays, among: u64) -> ([Heading; 3], u64) {
         let first = among & among.wrapping_neg();
         let mut headings = [Heading::Level; 3];

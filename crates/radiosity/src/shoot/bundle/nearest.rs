@@ -8,8 +8,7 @@ use crate::mesh::{Facet, Facets};
 
 /// The nearest hit found so far of each ray of a bundle.
 pub(crate) struct Nearest {
-    /// Distance of the hit, metres. Infinite while there is none, negative for rays that are not
-    /// cast.
+    /// Distance of the hit, metres. Infinite without a hit, negative for rays not cast.
     pub(crate) distance: Column,
     /// The polygons that are the nearest for some rays.
     pub(crate) hits: Vec<Hit>,
@@ -162,8 +161,7 @@ impl Nearest {
         (nearer.to_bitmask(), (reached & !nearer).to_bitmask())
     }
 
-    /// Makes a polygon the nearest one of the rays for which it is, or for which it precedes an
-    /// equally near one.
+    /// Makes a polygon the nearest one of rays that it is nearest to, or equally near and first.
     fn record(&mut self, reach: &Reach, piece: u32) {
         let mut wins = reach.nearer;
         let mut tied = reach.as_near & self.found();

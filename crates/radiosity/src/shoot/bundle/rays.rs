@@ -43,8 +43,7 @@ pub(crate) fn of_chunk(word: u64, chunk: usize) -> u64 {
     word >> (chunk * LANES) & 0xff
 }
 
-/// Unit directions in the frame of an emitter, stored by coordinate, and a pyramid around each
-/// bundle.
+/// Directions in the frame of an emitter, by coordinate, and a pyramid around each bundle.
 #[derive(Clone, Debug)]
 pub(crate) struct Bundles {
     directions: Vec<[Column; 3]>,

@@ -179,10 +179,9 @@ impl Course {
     }
 }
 
-/// What rays in a cell do next, given the coordinates `ahead` of the next planes relative to the
-/// emitter. Returns three sets: rays whose hit is not farther than the next crossing, rays that
-/// cross the x plane first, and rays that cross the y plane before the z plane. Of equal crossings,
-/// the lower axis is first.
+/// What rays in a cell do next, with the next planes at coordinates `ahead` from the emitter: rays
+/// that reach their hit first, rays that cross x first, and rays that cross y before z. Of equal
+/// crossings, the lower axis is first.
 #[inline(always)]
 fn next_crossings<S: Simd>(
     simd: S,
