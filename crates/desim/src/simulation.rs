@@ -1,4 +1,4 @@
-//! The executor: one thread of control that takes events in order and lets processes run.
+//! The executor: takes events in order and runs processes, on one thread.
 
 use std::rc::Rc;
 use std::task::{Context, Poll, Waker};
@@ -23,7 +23,7 @@ impl Simulation {
         Simulation::default()
     }
 
-    /// What processes need to use the simulation.
+    /// The interface that processes use.
     pub fn handle(&self) -> Handle {
         Handle(self.state.clone())
     }
@@ -31,7 +31,7 @@ impl Simulation {
     /// Takes events in order until none is left. Returns the time of the last one.
     ///
     /// # Errors
-    /// [`Stalled`] when processes still wait then, or when the run was halted.
+    /// [`Stalled`] if processes still wait then, or if the run was halted.
     pub fn run(&self) -> Result<Time, Stalled> {
         while let Some((time, event)) = self.next_event() {
             if self.state.is_stale(time, &event) {
@@ -59,7 +59,7 @@ impl Simulation {
     }
 
     fn next_event(&self) -> Option<(Time, Event)> {
-        self.state.queue.borrow_mut().next()
+        self.state.queue.borrow_mut().take()
     }
 
     fn time_came(&self, ticket: Ticket) {
@@ -76,7 +76,7 @@ impl Simulation {
         self.resume(process, Observation::Notified);
     }
 
-    /// Lets a process run until it waits again or ends.
+    /// Runs a process until it waits again or ends.
     fn resume(&self, id: ProcessId, why: Observation) {
         let Some(mut body) = self.with_process(id, |process| process.body.take()) else {
             return;
@@ -110,12 +110,12 @@ impl Simulation {
 }
 
 impl Drop for Simulation {
-    /// Processes and callbacks hold handles to the state that holds them: breaks these circles.
+    /// Breaks reference cycles: processes and callbacks hold handles to the state that holds them.
     fn drop(&mut self) {
         let queue = self.state.queue.take();
         let processes = self.state.processes.take();
         let observer = self.state.observer.take();
-        // Dropped only now that nothing is borrowed: a body's own destructors may use a handle.
+        // Dropped when nothing is borrowed: a destructor in a process may use a handle.
         drop((queue, processes, observer));
     }
 }
