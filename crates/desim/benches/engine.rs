@@ -110,7 +110,7 @@ fn phold_of_processes(bencher: Bencher) {
                 }
             });
         }
-        // Once no event is under way all entities wait, for ever.
+        // At the end no event is left and all entities wait.
         simulation.run().map_err(|stalled| stalled.at.0)
     });
 }

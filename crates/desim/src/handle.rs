@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use crate::event::Event;
 use crate::process::Process;
-use crate::state::{Observation, State};
+use crate::state::State;
 use crate::ticket::{ProcessId, Reason};
 use crate::time::{Duration, Time};
 use crate::wait::Wait;
@@ -29,8 +29,7 @@ impl Handle {
     ) -> ProcessId {
         let mut processes = self.0.processes.borrow_mut();
         let id = ProcessId(processes.len());
-        let name = name.into().into();
-        processes.push(Process { name, body: Some(Box::pin(future)) });
+        processes.push(Process { name: name.into(), body: Some(Box::pin(future)) });
         self.0.schedule(self.now(), Event::Start(id));
         id
     }
@@ -60,11 +59,5 @@ impl Handle {
     pub fn halt(&self, cause: impl Into<String>) {
         self.0.halted.borrow_mut().get_or_insert(cause.into());
         self.0.is_halted.set(true);
-    }
-
-    /// Reports every step of every process to `observer`, as (time, process, what happened). It
-    /// replaces an earlier observer.
-    pub fn set_observer(&self, observer: impl FnMut(Time, &str, Observation) + 'static) {
-        *self.0.observer.borrow_mut() = Some(Box::new(observer));
     }
 }

@@ -52,6 +52,5 @@ pub use handle::Handle;
 pub use signal::Signal;
 pub use simulation::Simulation;
 pub use stalled::{Stalled, Waiting};
-pub use state::Observation;
 pub use ticket::ProcessId;
 pub use time::{Duration, Time};

@@ -9,21 +9,6 @@ use crate::stalled::Waiting;
 use crate::ticket::{ProcessId, Reason, Ticket, Tickets};
 use crate::time::Time;
 
-/// What happened to a process.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Observation {
-    /// It runs for the first time.
-    Started,
-    /// It resumes after a signal.
-    Notified,
-    /// It resumes because a time is reached.
-    TimeCame,
-    /// It has ended.
-    Ended,
-}
-
-pub(crate) type Observer = Box<dyn FnMut(Time, &str, Observation)>;
-
 /// The clock, the events to come and the processes.
 #[derive(Default)]
 pub(crate) struct State {
@@ -36,7 +21,6 @@ pub(crate) struct State {
     pub(crate) is_halted: Cell<bool>,
     /// The process that runs; none during a callback.
     pub(crate) current: Cell<Option<ProcessId>>,
-    pub(crate) observer: RefCell<Option<Observer>>,
 }
 
 impl State {
@@ -80,7 +64,7 @@ impl State {
                 true => "a future that no event resolves".to_owned(),
                 false => reasons.join(" or "),
             };
-            Waiting { process: process.name.to_string(), on }
+            Waiting { process: process.name.clone(), on }
         })
         .collect()
     }

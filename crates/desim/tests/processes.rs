@@ -2,7 +2,6 @@
 //! expected trace.
 
 use std::cell::{Cell, RefCell};
-use std::fmt::Write as _;
 use std::rc::Rc;
 
 use desim::{Alarm, Duration, Handle, Signal, Simulation, Stalled, Time, Waiting};
@@ -219,36 +218,6 @@ fn a_run_can_go_on_after_a_stall() {
     assert!(simulation.run().is_err());
     signal.notify();
     assert_eq!(simulation.run(), Ok(Time::ZERO));
-}
-
-#[test]
-fn the_observer_sees_every_step() {
-    let simulation = Simulation::new();
-    let handle = simulation.handle();
-    let trace = Rc::new(RefCell::new(String::new()));
-    let lines = trace.clone();
-    handle.set_observer(move |time, process, what| {
-        writeln!(lines.borrow_mut(), "{time} {process} {what:?}").unwrap();
-    });
-    let signal = Signal::new(&handle, "signal");
-    let (h, notifier) = (handle.clone(), signal.clone());
-    handle.spawn("notifier", async move {
-        h.sleep(ns(2)).await;
-        notifier.notify();
-        h.sleep(Duration::ZERO).await;
-    });
-    handle.spawn("waiter", async move { signal.wait().await });
-    simulation.run().unwrap();
-    let golden = "\
-0 s notifier Started
-0 s waiter Started
-2 ns notifier TimeCame
-2 ns waiter Notified
-2 ns waiter Ended
-2 ns notifier TimeCame
-2 ns notifier Ended
-";
-    assert_eq!(*trace.borrow(), golden);
 }
 
 #[test]

@@ -183,7 +183,7 @@ fn compute_nodes_wait_under_back_pressure() {
     assert_eq!(account.ethernet_busy, us(1_100) * 200);
     assert!(end - account.ethernet_busy < us(200), "{end}");
     for account in &accounts[..NODES] {
-        // A quarter of the updates is each one's; the last are waited for by nobody.
+        // Each node sends a quarter of the updates. No node waits for the last ones.
         let waited = account.waiting_for_display.as_seconds_f64() / end.as_seconds_f64();
         assert!((0.9..1.0).contains(&waited), "{waited}");
         assert_eq!(account.layer.waiting_for_room, Duration::ZERO);

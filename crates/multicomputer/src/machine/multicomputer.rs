@@ -7,7 +7,7 @@ use desim::Handle;
 
 use super::machine::{Machine, MachineError};
 use crate::display::Display;
-use crate::network::{ChannelUse, Deadlock, Network};
+use crate::network::{Deadlock, Network};
 use crate::node::{
     Activity, FullBuffers, MachineObserver, Node, NodeAccount, NodeState, Rank, Shared,
 };
@@ -87,11 +87,6 @@ impl<M: 'static> Multicomputer<M> {
     pub fn accounts(&self) -> Vec<NodeAccount> {
         let now = self.0.handle.now();
         self.0.nodes.iter().map(|node| node.account(now)).collect()
-    }
-
-    /// The use of each channel of the network until now.
-    pub fn channel_use(&self) -> Vec<ChannelUse> {
-        self.0.transport.borrow().network.channel_use()
     }
 
     /// The deadlock by full buffers that halted the simulation, if one did.
