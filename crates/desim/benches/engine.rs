@@ -1,6 +1,6 @@
-//! PHOLD (Fujimoto 1990): as many events as entities are always under way, and each, when it comes,
-//! sends another at random. Processes of the simulation against a bare loop over a heap, which is what
-//! the same costs without processes, names, or reports of who waits for whom.
+//! PHOLD (Fujimoto 1990): each event schedules another one at a random entity after a random time.
+//! Processes of the simulation compared with a bare loop over a heap, which has no processes, names or
+//! deadlock reports.
 
 #![allow(missing_docs, reason = "a benchmark has no users")]
 
@@ -22,7 +22,7 @@ fn main() {
     divan::main();
 }
 
-/// Numbers without order (Marsaglia's xorshift64).
+/// Random numbers (Marsaglia's xorshift64).
 struct Random(Cell<u64>);
 
 impl Random {
@@ -35,7 +35,7 @@ impl Random {
         x
     }
 
-    /// To whom the next event goes, and when: in 1 to 1024 ns.
+    /// The entity of the next event, and the time until then: 1 to 1024 ns.
     fn event(&self) -> (usize, Duration) {
         let x = self.next();
         ((x >> 32) as usize % ENTITIES, Duration((x % 1024 + 1) * 1000))
@@ -110,7 +110,7 @@ fn phold_of_processes(bencher: Bencher) {
                 }
             });
         }
-        // Once no event is under way all entities wait, for ever.
+        // At the end no event is left and all entities wait.
         simulation.run().map_err(|stalled| stalled.at.0)
     });
 }

@@ -1,5 +1,5 @@
-//! PHOLD, the usual load for event engines: every event makes one more, for a random entity, after a
-//! random time. `phold EVENTS [engine|processes|bare]` prints the last virtual time, which is the
+//! PHOLD, the usual benchmark of event engines: every event schedules one more, for a random entity, after
+//! a random time. `phold EVENTS [engine|processes|bare]` prints the last virtual time, which is the
 //! same for all; time it from outside.
 
 use std::cell::RefCell;
@@ -9,7 +9,7 @@ use std::rc::Rc;
 
 use desim::{Duration, Handle, Simulation, Time};
 
-/// Entities, and events under way at any time.
+/// Entities, and pending events at any time.
 const ENTITIES: u64 = 56;
 
 /// The random state of every entity, and the events left.
@@ -23,11 +23,11 @@ impl Phold {
         Phold { random: (1..=ENTITIES).collect(), left: events }
     }
 
-    /// What an event at an entity makes: the next entity, and after how many ticks.
+    /// The event that follows one at an entity: its entity, and the ticks until then.
     fn next(&mut self, entity: u64) -> Option<(u64, u64)> {
         self.left = self.left.checked_sub(1)?;
         let state = &mut self.random[entity as usize];
-        // xorshift64: any cheap generator will do.
+        // xorshift64: any cheap generator is good enough.
         *state ^= *state << 13;
         *state ^= *state >> 7;
         *state ^= *state << 17;

@@ -1,4 +1,4 @@
-//! Alarms: an action called again and again, at times that may be brought forward.
+//! Alarms: a repeated callback whose next time can be moved forward.
 
 use std::cell::Cell;
 use std::rc::Rc;
@@ -9,8 +9,8 @@ use crate::repeated::Repeated;
 use crate::state::State;
 use crate::time::Time;
 
-/// An action that is called, as an event of its own, whenever a time comes for which it was set.
-/// Unlike [`Handle::at`] it asks for no memory each time. Clones are the same alarm.
+/// A callback that runs, as an event of its own, at each time for which the alarm was set. Unlike
+/// [`Handle::at`] it allocates no memory each time. Clones are the same alarm.
 #[derive(Clone)]
 pub struct Alarm {
     state: Rc<State>,
@@ -24,8 +24,8 @@ impl Alarm {
         Alarm { state: Rc::clone(&handle.0), repeated: Rc::new(repeated) }
     }
 
-    /// Sets the alarm for `time`, unless it is set for that or an earlier time already. A time that
-    /// is past counts as the present.
+    /// Sets the alarm for `time`, unless it is already set for that or an earlier time. A past
+    /// time counts as the present.
     pub fn set(&self, time: Time) {
         let time = time.max(self.state.now.get());
         if self.repeated.due.get().is_none_or(|due| time < due) {

@@ -2,13 +2,12 @@
 
 use std::future::Future;
 use std::pin::Pin;
-use std::rc::Rc;
 
 /// The body of a process.
 pub(crate) type Body = Pin<Box<dyn Future<Output = ()>>>;
 
 pub(crate) struct Process {
-    pub(crate) name: Rc<str>,
+    pub(crate) name: String,
     /// `None` while the process runs, and once it has ended.
     pub(crate) body: Option<Body>,
 }

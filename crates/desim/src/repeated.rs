@@ -1,4 +1,4 @@
-//! An action that is called again and again, at times that may be brought forward.
+//! The callback of an alarm, and the time for which it is set.
 
 use std::cell::Cell;
 
@@ -6,7 +6,7 @@ use crate::time::Time;
 
 pub(crate) struct Repeated {
     pub(crate) action: Box<dyn Fn()>,
-    /// When it will be called; an event for another time is stale.
+    /// When it will be called. An event for another time is stale.
     pub(crate) due: Cell<Option<Time>>,
 }
 
@@ -16,7 +16,7 @@ impl Repeated {
         self.due.get() == Some(time)
     }
 
-    /// Calls it; the action may make itself due anew.
+    /// Calls it. The callback may set the alarm again.
     pub(crate) fn call(&self) {
         self.due.set(None);
         (self.action)();

@@ -11,8 +11,8 @@ use crate::ticket::{Outcome, Reason, Waiters};
 use crate::time::Time;
 use crate::wait::Wait;
 
-/// A thing to wait for, without memory: a notification reaches those who wait at that moment, and
-/// nobody else. Clones are the same signal.
+/// Wakes the processes that wait for it. It has no memory: a notification reaches only the processes
+/// that wait at that moment. Clones are the same signal.
 #[derive(Clone)]
 pub struct Signal {
     state: Rc<State>,
@@ -30,15 +30,15 @@ impl Signal {
     pub fn notify(&self) {
         let mut tickets = self.state.tickets.borrow_mut();
         for waiter in self.waiters.tickets.borrow_mut().drain(..) {
-            // Decided here and not when the event comes: a timer of this very moment that is still
-            // in the queue came second.
+            // Decided here and not when the event happens: a timer of the same time that is still in
+            // the queue comes second.
             if tickets.end(waiter, Outcome::Notified) {
                 self.state.schedule(self.state.now.get(), Event::Wake(waiter));
             }
         }
     }
 
-    /// Waits, from when it is first polled, for the next notification.
+    /// Waits for the next notification after the first poll.
     pub fn wait(&self) -> impl Future<Output = ()> + use<> {
         let wait = self.begin_wait(None);
         async move {
@@ -46,8 +46,8 @@ impl Signal {
         }
     }
 
-    /// Waits for the next notification, at most until `time`: true if notified, false when the time
-    /// came first. A time that is past counts as the present.
+    /// Waits for the next notification, at most until `time`: true if notified, false if `time`
+    /// came first. A past time counts as the present.
     pub fn wait_until(&self, time: Time) -> impl Future<Output = bool> + use<> {
         let wait = self.begin_wait(Some(time));
         async move { wait.await == Outcome::Notified }

@@ -1,13 +1,12 @@
-//! The executor: one thread of control that takes events in order and lets processes run.
+//! The executor: takes events in order and runs processes, on one thread.
 
 use std::rc::Rc;
-use std::task::{Context, Poll, Waker};
+use std::task::{Context, Waker};
 
 use crate::event::Event;
 use crate::handle::Handle;
-use crate::process::Process;
 use crate::stalled::Stalled;
-use crate::state::{Observation, State};
+use crate::state::State;
 use crate::ticket::{Outcome, ProcessId, Ticket};
 use crate::time::Time;
 
@@ -23,7 +22,7 @@ impl Simulation {
         Simulation::default()
     }
 
-    /// What processes need to use the simulation.
+    /// The interface that processes use.
     pub fn handle(&self) -> Handle {
         Handle(self.state.clone())
     }
@@ -31,17 +30,19 @@ impl Simulation {
     /// Takes events in order until none is left. Returns the time of the last one.
     ///
     /// # Errors
-    /// [`Stalled`] when processes still wait then, or when the run was halted.
+    /// [`Stalled`] if processes still wait then, or if the run was halted.
     pub fn run(&self) -> Result<Time, Stalled> {
-        while let Some((time, event)) = self.next_event() {
+        loop {
+            let next = self.state.queue.borrow_mut().take();
+            let Some((time, event)) = next else { break };
             if self.state.is_stale(time, &event) {
                 continue;
             }
             self.state.now.set(time);
             match event {
-                Event::Start(process) => self.resume(process, Observation::Started),
+                Event::Start(process) => self.resume(process),
                 Event::Timer(ticket) => self.time_came(ticket),
-                Event::Wake(ticket) => self.wake(ticket),
+                Event::Wake(ticket) => self.resume(self.process(ticket)),
                 Event::Call(action) => action(),
                 Event::Alarm(alarm) => alarm.call(),
             }
@@ -58,64 +59,35 @@ impl Simulation {
         }
     }
 
-    fn next_event(&self) -> Option<(Time, Event)> {
-        self.state.queue.borrow_mut().next()
-    }
-
     fn time_came(&self, ticket: Ticket) {
-        let process = {
-            let mut tickets = self.state.tickets.borrow_mut();
-            tickets.end(ticket, Outcome::TimeCame);
-            tickets.process(ticket)
-        };
-        self.resume(process, Observation::TimeCame);
+        self.state.tickets.borrow_mut().end(ticket, Outcome::TimeCame);
+        self.resume(self.process(ticket));
     }
 
-    fn wake(&self, ticket: Ticket) {
-        let process = self.state.tickets.borrow().process(ticket);
-        self.resume(process, Observation::Notified);
+    fn process(&self, ticket: Ticket) -> ProcessId {
+        self.state.tickets.borrow().process(ticket)
     }
 
-    /// Lets a process run until it waits again or ends.
-    fn resume(&self, id: ProcessId, why: Observation) {
-        let Some(mut body) = self.with_process(id, |process| process.body.take()) else {
-            return;
-        };
-        self.observe(id, why);
+    /// Runs a process until it waits again or ends.
+    fn resume(&self, id: ProcessId) {
+        let body = self.state.processes.borrow_mut()[id.0].body.take();
+        let Some(mut body) = body else { return };
         self.state.current.set(Some(id));
         // No waker: every poll comes from an event.
         let progress = body.as_mut().poll(&mut Context::from_waker(Waker::noop()));
         self.state.current.set(None);
-        match progress {
-            Poll::Pending => _ = self.with_process(id, |process| process.body.replace(body)),
-            Poll::Ready(()) => self.observe(id, Observation::Ended),
+        if progress.is_pending() {
+            self.state.processes.borrow_mut()[id.0].body = Some(body);
         }
-    }
-
-    fn with_process<T>(
-        &self,
-        id: ProcessId,
-        action: impl FnOnce(&mut Process) -> Option<T>,
-    ) -> Option<T> {
-        action(self.state.processes.borrow_mut().get_mut(id.0)?)
-    }
-
-    fn observe(&self, id: ProcessId, what: Observation) {
-        // Taken out for the call, so that an observer may itself set an observer.
-        let Some(mut observer) = self.state.observer.take() else { return };
-        let name = self.state.processes.borrow()[id.0].name.clone();
-        observer(self.state.now.get(), &name, what);
-        self.state.observer.borrow_mut().get_or_insert(observer);
     }
 }
 
 impl Drop for Simulation {
-    /// Processes and callbacks hold handles to the state that holds them: breaks these circles.
+    /// Breaks reference cycles: processes and callbacks hold handles to the state that holds them.
     fn drop(&mut self) {
         let queue = self.state.queue.take();
         let processes = self.state.processes.take();
-        let observer = self.state.observer.take();
-        // Dropped only now that nothing is borrowed: a body's own destructors may use a handle.
-        drop((queue, processes, observer));
+        // Dropped when nothing is borrowed: a destructor in a process may use a handle.
+        drop((queue, processes));
     }
 }

@@ -1,16 +1,16 @@
-//! The end of a run that is none: processes wait for what nobody will do.
+//! Deadlock report: no event is left and processes still wait.
 
 use std::error::Error;
 use std::fmt;
 
 use crate::time::Time;
 
-/// No event is left and processes still wait, or a part of the simulation halted it.
+/// Deadlock report: no event is left and processes still wait, or a part of the simulation halted it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Stalled {
-    /// When the last event happened.
+    /// Time of the last event.
     pub at: Time,
-    /// Why the run was halted; none when it just ran out of events.
+    /// Why the run was halted; none if no event was left.
     pub cause: Option<String>,
     /// The processes that have not ended, in order of creation.
     pub waiting: Vec<Waiting>,
@@ -19,9 +19,9 @@ pub struct Stalled {
 /// One process that waits.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Waiting {
-    /// Its name.
+    /// Name of the process.
     pub process: String,
-    /// The name of what it waits for.
+    /// Name of what it waits for.
     pub on: String,
 }
 

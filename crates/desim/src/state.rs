@@ -1,41 +1,26 @@
-//! What a simulation shares with its handles, signals and waits.
+//! The state that a simulation shares with its handles, signals and waits.
 
 use std::cell::{Cell, RefCell};
 
-use crate::event::{Event, EventQueue};
+use crate::event::Event;
+use crate::event_queue::EventQueue;
 use crate::process::Process;
 use crate::stalled::Waiting;
 use crate::ticket::{ProcessId, Reason, Ticket, Tickets};
 use crate::time::Time;
 
-/// What an observer is told of a process.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Observation {
-    /// It runs for the first time.
-    Started,
-    /// It goes on because a signal came.
-    Notified,
-    /// It goes on because a time came.
-    TimeCame,
-    /// It has ended.
-    Ended,
-}
-
-pub(crate) type Observer = Box<dyn FnMut(Time, &str, Observation)>;
-
 /// The clock, the events to come and the processes.
 #[derive(Default)]
 pub(crate) struct State {
     pub(crate) now: Cell<Time>,
-    pub(crate) queue: RefCell<EventQueue>,
+    pub(crate) queue: RefCell<EventQueue<Event>>,
     pub(crate) processes: RefCell<Vec<Process>>,
     pub(crate) tickets: RefCell<Tickets>,
-    /// Why the run has to end here, if it has.
+    /// Why the run must end after the present event; none if it need not.
     pub(crate) halted: RefCell<Option<String>>,
     pub(crate) is_halted: Cell<bool>,
-    /// The process that runs, none while a callback does.
+    /// The process that runs; none during a callback.
     pub(crate) current: Cell<Option<ProcessId>>,
-    pub(crate) observer: RefCell<Option<Observer>>,
 }
 
 impl State {
@@ -56,8 +41,8 @@ impl State {
         self.tickets.borrow_mut().issue(process, on)
     }
 
-    /// Whether nothing is left to do: the wait was given up, a signal ended it before its time, or
-    /// the alarm was set for another time. Such an event must not even move the clock.
+    /// Whether an event is obsolete: its wait was dropped, a signal ended the wait earlier, or the
+    /// alarm was set for another time. Such an event must not move the clock.
     #[inline]
     pub(crate) fn is_stale(&self, time: Time, event: &Event) -> bool {
         match event {
@@ -79,7 +64,7 @@ impl State {
                 true => "a future that no event resolves".to_owned(),
                 false => reasons.join(" or "),
             };
-            Waiting { process: process.name.to_string(), on }
+            Waiting { process: process.name.clone(), on }
         })
         .collect()
     }

@@ -1,4 +1,4 @@
-//! Tickets: who waits for what, and how the wait ended.
+//! Tickets: which process waits for what, and how the wait ended.
 
 use std::cell::RefCell;
 use std::fmt;
@@ -10,21 +10,21 @@ use crate::time::Time;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct ProcessId(pub(crate) usize);
 
-/// One wait under way, as events and signals know it. The waiting future retires it when it is done
-/// or dropped, so that whatever they still have in hand then does no harm.
+/// Identity of one wait for events and signals. The waiting future retires its ticket when it is done
+/// or dropped; events and signals that still hold the ticket then have no effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Ticket {
     slot: u32,
-    /// Never used twice: tells a wait from later ones in its slot.
+    /// Unique: distinguishes a wait from later ones in the same slot.
     issue: u64,
 }
 
 /// How a wait ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Outcome {
-    /// The signal came.
+    /// The signal was notified.
     Notified,
-    /// The time came.
+    /// The time was reached.
     TimeCame,
 }
 
@@ -44,7 +44,7 @@ impl fmt::Display for Reason {
     }
 }
 
-/// Those who wait for one signal.
+/// The waits for one signal.
 pub(crate) struct Waiters {
     /// The signal's name.
     pub(crate) name: String,
@@ -52,7 +52,7 @@ pub(crate) struct Waiters {
     pub(crate) tickets: RefCell<Vec<Ticket>>,
 }
 
-/// What a ticket stands for.
+/// The wait of a ticket.
 struct Slot {
     issue: u64,
     process: ProcessId,
@@ -61,7 +61,7 @@ struct Slot {
     on: Option<Reason>,
 }
 
-/// All tickets, in slots that are used again: a wait asks for no memory of its own.
+/// All tickets, in slots that are reused: a wait allocates no memory of its own.
 #[derive(Default)]
 pub(crate) struct Tickets {
     slots: Vec<Slot>,
@@ -70,7 +70,7 @@ pub(crate) struct Tickets {
 }
 
 impl Tickets {
-    /// A ticket for a wait that begins.
+    /// A ticket for a new wait.
     #[inline]
     pub(crate) fn issue(&mut self, process: ProcessId, on: Reason) -> Ticket {
         self.issued += 1;
@@ -83,7 +83,7 @@ impl Tickets {
         Ticket { slot: number, issue: self.issued }
     }
 
-    /// The wait is over or given up.
+    /// The wait has ended or was dropped.
     #[inline]
     pub(crate) fn retire(&mut self, ticket: Ticket) {
         if self.is_held(ticket) {
@@ -92,7 +92,7 @@ impl Tickets {
         }
     }
 
-    /// Decides how a wait ends, unless that is decided already; says whether it was not.
+    /// Decides how a wait ends, unless that is already decided. Returns whether it was still open.
     pub(crate) fn end(&mut self, ticket: Ticket, outcome: Outcome) -> bool {
         let open = self.is_open(ticket);
         if open {
@@ -101,12 +101,12 @@ impl Tickets {
         open
     }
 
-    /// Whether somebody still waits with this ticket and its end is not decided.
+    /// Whether the wait goes on and its end is not decided.
     pub(crate) fn is_open(&self, ticket: Ticket) -> bool {
         self.is_held(ticket) && self.slots[ticket.slot as usize].outcome.is_none()
     }
 
-    /// Whether the future that waits with this ticket is still there.
+    /// Whether the waiting future still exists.
     pub(crate) fn is_held(&self, ticket: Ticket) -> bool {
         let slot = &self.slots[ticket.slot as usize];
         slot.issue == ticket.issue && slot.on.is_some()
@@ -122,7 +122,7 @@ impl Tickets {
         self.slots[ticket.slot as usize].outcome
     }
 
-    /// What a process waits for: one thing for most, several if it awaits several futures.
+    /// What a process waits for: usually one thing, several if it awaits several futures.
     pub(crate) fn reasons(&self, process: ProcessId) -> impl Iterator<Item = &Reason> {
         let mut open: Vec<&Slot> =
             self.slots.iter().filter(|s| s.process == process && s.outcome.is_none()).collect();

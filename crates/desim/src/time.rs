@@ -1,4 +1,4 @@
-//! Virtual time as an integer, so that it adds up exactly and orders totally.
+//! Virtual time as an integer, so that sums are exact and any two times can be compared.
 
 use std::fmt;
 use std::iter::Sum;
@@ -18,7 +18,7 @@ pub struct Duration(pub u64);
 impl Time {
     /// The simulation's start.
     pub const ZERO: Time = Time(0);
-    /// The last moment that can be told, some 213 days after the start.
+    /// The last representable moment, about 213 days after the start.
     pub const MAX: Time = Time(u64::MAX);
 
     /// Seconds since the start, rounded to the nearest f64.
@@ -30,7 +30,7 @@ impl Time {
 impl Duration {
     /// No time.
     pub const ZERO: Duration = Duration(0);
-    /// The longest span, some 213 days.
+    /// The longest span, about 213 days.
     pub const MAX: Duration = Duration(u64::MAX);
 
     /// A span of `ps` picoseconds.
@@ -46,7 +46,7 @@ impl Duration {
     /// The tick nearest to `seconds`. Negative values and NaN give zero; too long a span gives
     /// [`Duration::MAX`].
     pub fn from_seconds_f64(seconds: f64) -> Duration {
-        // A cast from f64 saturates and takes NaN to zero: just what the contract says.
+        // A cast from f64 saturates and turns NaN into zero.
         Duration((seconds * TICKS_PER_SECOND).round() as u64)
     }
 

@@ -1,4 +1,4 @@
-//! Waiting: the one future on which all others of this crate are built.
+//! The future on which all waits of this crate are built.
 
 use std::future::Future;
 use std::pin::Pin;
@@ -10,7 +10,7 @@ use crate::state::State;
 use crate::ticket::{Outcome, Reason, Ticket};
 use crate::time::Time;
 
-/// Waits for a signal, a time, or whichever comes first. Begins when first polled.
+/// Waits for a signal, a time, or the first of both. Begins at the first poll.
 pub(crate) struct Wait {
     state: Rc<State>,
     on: Reason,
@@ -19,7 +19,7 @@ pub(crate) struct Wait {
 }
 
 impl Wait {
-    /// A wait that has not begun; `until` is the time that it lasts at most.
+    /// A wait that has not begun and ends at `until` at the latest.
     pub(crate) fn new(state: &Rc<State>, on: Reason, until: Option<Time>) -> Wait {
         Wait { state: Rc::clone(state), on, until, ticket: None }
     }
@@ -29,7 +29,7 @@ impl Wait {
         if let Reason::Signal(waiters) = &self.on {
             let tickets = self.state.tickets.borrow();
             let mut waiting = waiters.tickets.borrow_mut();
-            // Those that gave up are forgotten: else waits that time out would pile up.
+            // Removes ended waits: otherwise waits that time out would accumulate.
             waiting.retain(|&earlier| tickets.is_open(earlier));
             waiting.push(ticket);
         }

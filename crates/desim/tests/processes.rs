@@ -1,8 +1,7 @@
-//! Processes, signals and time, seen from outside: each test is a small program whose exact course
-//! is written down.
+//! Processes, signals and time through the public interface: each test is a small program with its exact
+//! expected trace.
 
 use std::cell::{Cell, RefCell};
-use std::fmt::Write as _;
 use std::rc::Rc;
 
 use desim::{Alarm, Duration, Handle, Signal, Simulation, Stalled, Time, Waiting};
@@ -53,12 +52,12 @@ fn equal_times_are_first_come_first_served() {
         h.at(at_ns(5), move || log.line("fourth"));
         let log = later.clone();
         h.at(Time::ZERO, move || log.line("a past time is the present"));
-        later.line("never from within");
+        later.line("after the calls to at");
     });
     assert_eq!(simulation.run(), Ok(at_ns(5)));
     log.expect(&[
         "    1 ns  first",
-        "    1 ns  never from within",
+        "    1 ns  after the calls to at",
         "    1 ns  a past time is the present",
         "    5 ns  second",
         "    5 ns  third",
@@ -95,31 +94,31 @@ fn ping_pong() {
     log.expect(&["   10 ns  ping", "   13 ns  pong", "   23 ns  ping", "   26 ns  pong"]);
 }
 
-/// A process that waits for a bell until 10 ns, in a world where the bell rings at `ring`;
-/// `bell_first` schedules the bell before the process.
-fn race(ring: Time, bell_first: bool) -> (Option<bool>, Time) {
+/// A process waits for a signal until 10 ns; the signal is notified at `notified`. With `signal_first`
+/// the notification is scheduled before the process starts.
+fn race(notified: Time, signal_first: bool) -> (Option<bool>, Time) {
     let simulation = Simulation::new();
     let handle = simulation.handle();
-    let bell = Signal::new(&handle, "bell");
-    let heard = Rc::new(Cell::new(None));
+    let signal = Signal::new(&handle, "signal");
+    let outcome = Rc::new(Cell::new(None));
 
-    let ringing = bell.clone();
-    let (h, answer) = (handle.clone(), heard.clone());
+    let notifier = signal.clone();
+    let (h, result) = (handle.clone(), outcome.clone());
     let process = async move {
-        answer.set(Some(bell.wait_until(at_ns(10)).await));
-        assert_eq!(h.now(), ring.min(at_ns(10)));
+        result.set(Some(signal.wait_until(at_ns(10)).await));
+        assert_eq!(h.now(), notified.min(at_ns(10)));
     };
-    if bell_first {
-        handle.at(ring, move || ringing.notify());
-        handle.spawn("listener", process);
+    if signal_first {
+        handle.at(notified, move || notifier.notify());
+        handle.spawn("waiter", process);
     } else {
-        handle.spawn("listener", process);
+        handle.spawn("waiter", process);
         let h = handle.clone();
-        // Scheduled when the listener's own timer already stands in the queue.
-        handle.at(at_ns(1), move || h.at(ring, move || ringing.notify()));
+        // Scheduled when the waiter's own timer is already in the queue.
+        handle.at(at_ns(1), move || h.at(notified, move || notifier.notify()));
     }
-    let end = simulation.run().expect("nobody waits for ever");
-    (heard.get(), end)
+    let end = simulation.run().expect("no process waits forever");
+    (outcome.get(), end)
 }
 
 #[test]
@@ -130,7 +129,7 @@ fn signal_and_time_race() {
     // At equal times the order of scheduling decides.
     assert_eq!(race(at_ns(10), true), (Some(true), at_ns(10)));
     assert_eq!(race(at_ns(10), false), (Some(false), at_ns(10)));
-    // Nobody hears a bell that rings too late, and it does no harm.
+    // A notification after the time limit reaches no process and has no effect.
     assert_eq!(race(at_ns(40), true), (Some(false), at_ns(40)));
 }
 
@@ -139,17 +138,17 @@ fn a_signal_has_no_memory_and_wakes_in_order_of_arrival() {
     let simulation = Simulation::new();
     let handle = simulation.handle();
     let log = Log::new(&handle);
-    let bell = Signal::new(&handle, "bell");
-    bell.notify();
+    let signal = Signal::new(&handle, "signal");
+    signal.notify();
     for (name, arrives) in [("late", 3), ("early", 1), ("middle", 2)] {
-        let (h, l, bell) = (handle.clone(), log.clone(), bell.clone());
+        let (h, l, signal) = (handle.clone(), log.clone(), signal.clone());
         handle.spawn(name, async move {
             h.sleep(ns(arrives)).await;
-            bell.wait().await;
+            signal.wait().await;
             l.line(name);
         });
     }
-    handle.at(at_ns(5), move || bell.notify());
+    handle.at(at_ns(5), move || signal.notify());
     assert_eq!(simulation.run(), Ok(at_ns(5)));
     log.expect(&["    5 ns  early", "    5 ns  middle", "    5 ns  late"]);
 }
@@ -158,17 +157,17 @@ fn a_signal_has_no_memory_and_wakes_in_order_of_arrival() {
 fn a_dropped_wait_is_harmless() {
     let simulation = Simulation::new();
     let handle = simulation.handle();
-    let (bell, h) = (Signal::new(&handle, "bell"), handle.clone());
-    handle.spawn("hasty", async move {
+    let (signal, h) = (Signal::new(&handle, "signal"), handle.clone());
+    handle.spawn("impatient", async move {
         // Polls a wait once, then drops it.
-        let mut wait = Box::pin(bell.wait_until(at_ns(1_000)));
+        let mut wait = Box::pin(signal.wait_until(at_ns(1_000)));
         std::future::poll_fn(|context| {
             assert!(wait.as_mut().poll(context).is_pending());
             std::task::Poll::Ready(())
         })
         .await;
         drop(wait);
-        bell.notify();
+        signal.notify();
         h.sleep(ns(7)).await;
         assert_eq!(h.now(), at_ns(7));
     });
@@ -176,7 +175,7 @@ fn a_dropped_wait_is_harmless() {
 }
 
 #[test]
-fn a_stall_names_who_waits_for_what() {
+fn a_stall_names_the_waiting_processes_and_what_they_wait_for() {
     let simulation = Simulation::new();
     let handle = simulation.handle();
     for (name, object) in [("node 0", "mail at node 0"), ("node 1", "mail at node 1")] {
@@ -187,7 +186,7 @@ fn a_stall_names_who_waits_for_what() {
         });
     }
     handle.spawn("done", async {});
-    handle.spawn("stranger", std::future::pending());
+    handle.spawn("foreign future", std::future::pending());
     let stalled = simulation.run().unwrap_err();
     let waiting = |process: &str, on: &str| Waiting { process: process.into(), on: on.into() };
     assert_eq!(
@@ -198,14 +197,14 @@ fn a_stall_names_who_waits_for_what() {
             waiting: vec![
                 waiting("node 0", "mail at node 0"),
                 waiting("node 1", "mail at node 1"),
-                waiting("stranger", "a future that no event resolves"),
+                waiting("foreign future", "a future that no event resolves"),
             ],
         }
     );
     assert_eq!(
         stalled.to_string(),
         "stalled at 2 ns: no event is left, but node 0 waits for mail at node 0; \
-         node 1 waits for mail at node 1; stranger waits for a future that no event resolves"
+         node 1 waits for mail at node 1; foreign future waits for a future that no event resolves"
     );
 }
 
@@ -213,42 +212,12 @@ fn a_stall_names_who_waits_for_what() {
 fn a_run_can_go_on_after_a_stall() {
     let simulation = Simulation::new();
     let handle = simulation.handle();
-    let bell = Signal::new(&handle, "bell");
-    let waiting = bell.clone();
-    handle.spawn("listener", async move { waiting.wait().await });
+    let signal = Signal::new(&handle, "signal");
+    let waiting = signal.clone();
+    handle.spawn("waiter", async move { waiting.wait().await });
     assert!(simulation.run().is_err());
-    bell.notify();
+    signal.notify();
     assert_eq!(simulation.run(), Ok(Time::ZERO));
-}
-
-#[test]
-fn the_observer_sees_every_step() {
-    let simulation = Simulation::new();
-    let handle = simulation.handle();
-    let trace = Rc::new(RefCell::new(String::new()));
-    let lines = trace.clone();
-    handle.set_observer(move |time, process, what| {
-        writeln!(lines.borrow_mut(), "{time} {process} {what:?}").unwrap();
-    });
-    let bell = Signal::new(&handle, "bell");
-    let (h, ringing) = (handle.clone(), bell.clone());
-    handle.spawn("ringer", async move {
-        h.sleep(ns(2)).await;
-        ringing.notify();
-        h.sleep(Duration::ZERO).await;
-    });
-    handle.spawn("listener", async move { bell.wait().await });
-    simulation.run().unwrap();
-    let golden = "\
-0 s ringer Started
-0 s listener Started
-2 ns ringer TimeCame
-2 ns listener Notified
-2 ns listener Ended
-2 ns ringer TimeCame
-2 ns ringer Ended
-";
-    assert_eq!(*trace.borrow(), golden);
 }
 
 #[test]
@@ -274,9 +243,9 @@ fn a_dropped_simulation_frees_its_processes() {
     let simulation = Simulation::new();
     let handle = simulation.handle();
     let held = Rc::new(());
-    let (bell, in_process) = (Signal::new(&handle, "bell"), held.clone());
-    handle.spawn("waits for ever", async move {
-        bell.wait().await;
+    let (signal, in_process) = (Signal::new(&handle, "signal"), held.clone());
+    handle.spawn("waits forever", async move {
+        signal.wait().await;
         drop(in_process);
     });
     assert!(simulation.run().is_err());
@@ -291,7 +260,7 @@ fn an_alarm_goes_off_at_the_earliest_time_set() {
     let handle = simulation.handle();
     let log = Log::new(&handle);
     let lines = log.clone();
-    let alarm = Alarm::new(&handle, move || lines.line("rings"));
+    let alarm = Alarm::new(&handle, move || lines.line("goes off"));
     alarm.set(at_ns(9));
     alarm.set(at_ns(4));
     alarm.set(at_ns(6));
@@ -299,19 +268,19 @@ fn an_alarm_goes_off_at_the_earliest_time_set() {
     handle.at(at_ns(5), move || same.set(at_ns(7)));
     // The stale event for 9 ns does not keep the simulation alive.
     assert_eq!(simulation.run(), Ok(at_ns(7)));
-    log.expect(&["    4 ns  rings", "    7 ns  rings"]);
+    log.expect(&["    4 ns  goes off", "    7 ns  goes off"]);
 }
 
 #[test]
-fn a_halt_ends_the_run_and_says_why() {
+fn a_halt_ends_the_run_with_its_cause() {
     let simulation = Simulation::new();
     let handle = simulation.handle();
-    let (h, bell) = (handle.clone(), Signal::new(&handle, "bell"));
-    handle.spawn("listener", async move { bell.wait().await });
-    handle.at(at_ns(1), move || h.halt("the bell is broken"));
+    let (h, signal) = (handle.clone(), Signal::new(&handle, "signal"));
+    handle.spawn("waiter", async move { signal.wait().await });
+    handle.at(at_ns(1), move || h.halt("broken signal"));
     handle.at(at_ns(2), || panic!("the run goes on"));
     assert_eq!(
         simulation.run().unwrap_err().to_string(),
-        "stalled at 1 ns: the bell is broken, but listener waits for bell"
+        "stalled at 1 ns: broken signal, but waiter waits for signal"
     );
 }

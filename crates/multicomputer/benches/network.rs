@@ -1,4 +1,4 @@
-//! Models of the ladder of networks, by messages a second of the host.
+//! Speed of the network models: messages a second of the host's time.
 
 #![allow(missing_docs, reason = "a benchmark has no users")]
 

@@ -1,4 +1,4 @@
-//! The exchange by which the speed of networks is measured: `exchange MODEL [ROUNDS]`; time it from
+//! The exchange that measures the speed of the network models: `exchange MODEL [ROUNDS]`; time it from
 //! outside. 56 nodes send 4 KB to 4 neighbours each, 1,000 times.
 
 use multicomputer::{Machine, NetworkModel, exchange};

@@ -1,4 +1,4 @@
-//! The choice of a model, and the record on which it rests.
+//! The automatic choice of a network model, and the record of messages on which it is based.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
 
@@ -47,7 +47,7 @@ fn computes(machine: &Machine, network: Box<dyn Network>) -> Time {
 }
 
 #[test]
-fn the_cheapest_model_is_chosen_and_it_is_told_why() {
+fn the_cheapest_model_is_chosen_with_a_reason() {
     let paragon = machine(&paragon());
     let idle = chosen(&paragon, 0.01, computes);
     assert_eq!(idle.model, NetworkModel::Ideal);
@@ -61,13 +61,13 @@ fn the_cheapest_model_is_chosen_and_it_is_told_why() {
     assert_eq!(strict.model, NetworkModel::LogGp);
     assert_eq!(strict.time, idle.time + Duration(105_055_385));
 
-    // Nothing but messages, each port on its own: LogGP is enough.
+    // Messages only, each on its own port: LogGP is enough.
     let exchanged = chosen(&paragon, 0.01, |machine, network| {
         exchange(machine, network, 16, 4_096, 2).unwrap()
     });
     assert_eq!(exchanged.model, NetworkModel::LogGp, "{}", exchanged.why);
 
-    // All send to one: its way in has to be shared, which LogGP does not know.
+    // All send to one node and share the links to it, which LogGP does not model.
     let rushed = chosen(&paragon, 0.01, |machine, network| {
         hot_spot(machine, network, 16, 4_096, 2).unwrap()
     });
@@ -76,7 +76,7 @@ fn the_cheapest_model_is_chosen_and_it_is_told_why() {
 }
 
 #[test]
-fn the_choice_ends_where_the_machine_s_file_does() {
+fn the_choice_ends_at_the_models_that_the_machine_file_describes() {
     let mut file = paragon();
     file["network"].as_object_mut().unwrap().remove("links");
     let rushed = chosen(&machine(&file), 0.01, |machine, network| {
@@ -87,7 +87,7 @@ fn the_choice_ends_where_the_machine_s_file_does() {
 }
 
 #[test]
-fn a_recorder_changes_nothing_and_tells_all() {
+fn a_recorder_does_not_change_the_run_and_records_all_messages() {
     let paragon = machine(&paragon());
     let network = || paragon.network_on(NetworkModel::Wormhole).unwrap();
     let (recorder, record) = Recorder::new(network());
@@ -96,7 +96,7 @@ fn a_recorder_changes_nothing_and_tells_all() {
     let record = record.borrow();
     assert_eq!(record.messages.len(), 21);
     assert!(record.messages.iter().all(|message| message.arrived.is_some_and(|at| at <= end)));
-    // The link from node 4 to node 0 carries what comes from the second row: 12 messages.
+    // The link from node 4 to node 0 carries the messages from the second row: 12.
     let links = paragon.parameters.links.clone().unwrap();
     let busiest = record.busiest_link(paragon.topology(), &links, end);
     let expected = 12.0 * 4_096.0 / 175e6 / end.as_seconds_f64();

@@ -1,4 +1,4 @@
-//! The way to a display: each part alone against its closed form, and what happens when it drowns.
+//! The connection to a display: each part compared with its closed form, and overload.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
 
@@ -55,7 +55,7 @@ fn machine(display: Display) -> Machine {
     machine
 }
 
-/// The service node puts these updates into its queue at time zero and sends them on.
+/// The service node queues these updates at time zero and sends them.
 fn send(display: &Display, updates: &[u64]) -> (DisplayAccount, NodeAccount) {
     let simulation = Simulation::new();
     let nodes =
@@ -71,8 +71,7 @@ fn send(display: &Display, updates: &[u64]) -> (DisplayAccount, NodeAccount) {
     (socket.account(), nodes.accounts().swap_remove(1))
 }
 
-/// Frames of an Ethernet that alone is slow follow each other without a gap: it carries what the
-/// formula says.
+/// If only the Ethernet is slow, its frames follow each other without a gap, at the rate of the formula.
 #[test]
 fn the_slowest_part_decides_the_throughput() {
     let [fast, slow] = [us(1), us(5_000)];
@@ -97,9 +96,9 @@ fn the_slowest_part_decides_the_throughput() {
     }
 }
 
-/// With room for one update under way, the next is on the wire when the display has taken it.
+/// With a window of one update, the next one is sent when the display has taken it.
 #[test]
-fn a_full_window_holds_the_service_node_up() {
+fn a_full_window_blocks_the_service_node() {
     let display = Display { window: 1_000, ..display() };
     let (account, service) = send(&display, &[1_000; 10]);
     let (made, turn) = (us(110), us(1_100 + 50));
@@ -112,7 +111,7 @@ fn a_full_window_holds_the_service_node_up() {
 }
 
 #[test]
-fn what_finds_no_room_is_dropped_or_takes_that_of_the_oldest() {
+fn updates_without_room_are_dropped_or_replace_the_oldest() {
     let updates = [100, 200, 300, 400];
     for (when_full, shown, shown_bytes) in [
         (WhenFull::BackPressure, 4, 1_000),
@@ -131,8 +130,8 @@ fn what_finds_no_room_is_dropped_or_takes_that_of_the_oldest() {
     }
 }
 
-/// Every compute node sends 50 updates of 1,000 bytes, far more than the service node can send on.
-fn drown(display: &Display) -> (DisplayAccount, Vec<NodeAccount>) {
+/// Every compute node sends 50 updates of 1,000 bytes, far more than the service node can forward.
+fn overload(display: &Display) -> (DisplayAccount, Vec<NodeAccount>) {
     const EACH: u64 = 50;
     let simulation = Simulation::new();
     let handle = simulation.handle();
@@ -175,16 +174,16 @@ fn drown(display: &Display) -> (DisplayAccount, Vec<NodeAccount>) {
 
 /// The Ethernet takes 1.1 ms an update, compute nodes make one every 2.5 µs.
 #[test]
-fn compute_nodes_wait_for_a_display_that_presses_back() {
+fn compute_nodes_wait_under_back_pressure() {
     let drowned = Display { service_buffers: 5_000, window: 2_000, ..display() };
-    let (account, accounts) = drown(&drowned);
+    let (account, accounts) = overload(&drowned);
     assert_eq!((account.shown, account.dropped), (200, 0));
     // The Ethernet is never idle, but for the first update and while the display takes the last.
     let end = account.last_shown - Time::ZERO;
     assert_eq!(account.ethernet_busy, us(1_100) * 200);
     assert!(end - account.ethernet_busy < us(200), "{end}");
     for account in &accounts[..NODES] {
-        // A quarter of the updates is each one's; the last are waited for by nobody.
+        // Each node sends a quarter of the updates. No node waits for the last ones.
         let waited = account.waiting_for_display.as_seconds_f64() / end.as_seconds_f64();
         assert!((0.9..1.0).contains(&waited), "{waited}");
         assert_eq!(account.layer.waiting_for_room, Duration::ZERO);
@@ -192,16 +191,16 @@ fn compute_nodes_wait_for_a_display_that_presses_back() {
         assert_eq!(account.life(), finished);
     }
 
-    let (account, accounts) = drown(&display());
+    let (account, accounts) = overload(&display());
     assert_eq!(account.shown, 200);
     assert!(accounts[..NODES].iter().all(|node| node.waiting_for_display == Duration::ZERO));
 }
 
 #[test]
-fn compute_nodes_go_on_where_updates_are_dropped() {
+fn compute_nodes_do_not_wait_if_updates_are_dropped() {
     for when_full in [WhenFull::DropOldest, WhenFull::DropNewest] {
         let drowned = Display { service_buffers: 5_000, window: 2_000, when_full, ..display() };
-        let (account, accounts) = drown(&drowned);
+        let (account, accounts) = overload(&drowned);
         assert_eq!(account.shown + account.dropped, 200);
         assert!(account.dropped > 150, "{}", account.dropped);
         for node in &accounts[..NODES] {

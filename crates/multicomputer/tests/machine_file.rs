@@ -1,4 +1,4 @@
-//! Machine files: the one that is shipped, and those that are refused.
+//! Machine files: those of the project, and invalid ones.
 
 use std::fs;
 use std::path::PathBuf;
@@ -33,7 +33,7 @@ fn the_paragon() {
     assert_eq!(latency.to_string(), "42 µs");
 }
 
-/// Two places that speak of the same room say the same.
+/// Two fields for the same buffers must agree.
 #[test]
 fn message_buffers_agree() {
     let text = fs::read_to_string(machines("paragon-gp16.json")).expect("the file is shipped");
@@ -81,7 +81,7 @@ fn the_display_and_the_disks() {
     }
 }
 
-/// The nodes of 16 MB are the same in all else.
+/// The nodes with 16 MB differ only in memory.
 #[test]
 fn the_paragon_with_memory() {
     let text = fs::read_to_string(machines("paragon-gp16.json")).expect("the file is shipped");
@@ -159,7 +159,7 @@ fn caches_are_whole_sets_of_whole_lines() {
 }
 
 #[test]
-fn a_model_that_the_file_says_too_little_for_is_refused() {
+fn a_model_without_its_parameters_is_refused() {
     let mut file = paragon();
     file["network"] = json!({ "model": "ideal" });
     let message =
@@ -176,7 +176,7 @@ fn a_model_that_the_file_says_too_little_for_is_refused() {
 }
 
 #[test]
-fn nodes_may_be_joined_in_other_ways() {
+fn other_topologies() {
     for (kind, shape) in [
         ("torus", Shape::Torus { width: 4, height: 16 }),
         ("crossbar", Shape::Crossbar { places: 58 }),
@@ -340,7 +340,7 @@ fn faults_of_the_text_name_line_and_column() {
 }
 
 #[test]
-fn the_shipped_schema_is_the_code_s() {
+fn the_committed_schema_is_up_to_date() {
     let path = machines("schemas/machine.json");
     let mut text = serde_json::to_string_pretty(&machine_schema()).unwrap();
     text.push('\n');

@@ -1,4 +1,4 @@
-//! The message layer: each mechanism alone, and what it costs whom.
+//! The message layer: each mechanism alone, and what it costs senders and receivers.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
 
@@ -51,7 +51,7 @@ fn machine(layer: &Value) -> Machine {
     Machine::from_json(&file(layer).to_string(), "m.json").unwrap()
 }
 
-/// A run of four nodes: what became of it, and their accounts.
+/// A run of four nodes: its end, and their accounts.
 struct Ran {
     end: Result<Time, Stalled>,
     nodes: Multicomputer<u32>,
@@ -105,7 +105,7 @@ async fn letters(node: Node<u32>, count: u32, busy: Duration) {
     }
 }
 
-/// What a message of 1,000 bytes takes without any mechanism.
+/// Time of a message of 1,000 bytes without any mechanism.
 fn plain() -> Duration {
     O + injection(1_000) + LATENCY + O
 }
@@ -131,8 +131,7 @@ fn packets_take_the_sender_time_each() {
     assert_eq!(empty, us(2));
 }
 
-/// Three messages that nobody read push a segment out: they are copied, it is paged in, and the
-/// account has both.
+/// Three unread messages page a segment out: they are copied, it is paged in, and the account has both.
 #[test]
 fn a_node_pays_for_its_messages_and_its_memory() {
     let memory = NodeMemory {
@@ -160,7 +159,7 @@ fn a_node_pays_for_its_messages_and_its_memory() {
 }
 
 #[test]
-fn a_message_that_nobody_waits_for_is_copied() {
+fn a_message_without_a_posted_receive_is_copied() {
     let layer = json!({ "copy_bandwidth": sourced("50 MB/s") });
     // Waited for: no copy.
     let ran = run(&layer, |node| letters(node, 1, Duration::ZERO));
@@ -178,7 +177,7 @@ fn a_message_that_nobody_waits_for_is_copied() {
 }
 
 #[test]
-fn a_wait_that_is_given_up_posts_nothing() {
+fn a_wait_that_has_timed_out_posts_no_receive() {
     let layer = json!({ "copy_bandwidth": sourced("50 MB/s") });
     let ran = run(&layer, |node| async move {
         if node.rank() == 1 {
@@ -252,7 +251,7 @@ fn a_sender_waits_while_the_buffers_are_full() {
 }
 
 #[test]
-fn a_message_longer_than_the_buffers_has_them_to_itself() {
+fn a_message_longer_than_the_buffers_waits_until_they_are_empty() {
     let layer = json!({ "buffers": sourced("10 B") });
     let ran = run(&layer, |node| letters(node, 2, us(100)));
     assert_eq!(ran.account(0).layer.held_messages, 1);
@@ -260,7 +259,7 @@ fn a_message_longer_than_the_buffers_has_them_to_itself() {
 }
 
 #[test]
-fn a_process_that_has_finished_holds_nobody_up() {
+fn a_process_that_has_finished_blocks_no_sender() {
     let layer = json!({ "buffers": sourced("10 B") });
     let ran = run(&layer, |node| async move {
         match node.rank() {
@@ -290,7 +289,7 @@ async fn ring(node: Node<u32>, count: usize) {
 }
 
 #[test]
-fn processes_that_fill_each_other_s_buffers_are_told_so() {
+fn a_deadlock_by_full_buffers_names_its_processes() {
     let ran = run(&json!({ "buffers": sourced("1.5 KB") }), |node| ring(node, 3));
     let full = ran.nodes.full_buffers().unwrap();
     assert_eq!(full.circle, [2, 0, 1]);
@@ -312,7 +311,7 @@ fn processes_that_fill_each_other_s_buffers_are_told_so() {
 }
 
 #[test]
-fn who_waits_for_room_that_nobody_makes_is_named() {
+fn a_stall_names_the_buffers_without_room() {
     let ran = run(&json!({ "buffers": sourced("1 KB") }), |node| async move {
         if node.rank() == 0 {
             letters(node, 2, Duration::ZERO).await;
@@ -324,7 +323,7 @@ fn who_waits_for_room_that_nobody_makes_is_named() {
 }
 
 #[test]
-fn everything_at_once_loses_no_time_and_no_message() {
+fn all_mechanisms_together_lose_no_time_and_no_message() {
     let layer = json!({
         "packets": { "size": sourced("300 B"), "time": sourced("2 us") },
         "copy_bandwidth": sourced("50 MB/s"),

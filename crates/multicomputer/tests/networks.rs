@@ -1,4 +1,4 @@
-//! The models of the ladder: closed formulas, fixtures, bars, and what always holds.
+//! The network models: closed formulas, fixtures, comparisons, and invariants.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
 
@@ -23,7 +23,7 @@ fn machine(name: &str) -> Machine {
     Machine::from_json(&fs::read_to_string(machines(&file)).unwrap(), &file).unwrap()
 }
 
-/// A fixture's courses over a model.
+/// Replays a fixture on a model.
 fn fixture(
     trace: &str,
     machine_name: &str,
@@ -37,8 +37,8 @@ fn fixture(
     replay(&trace, network.as_mut(), machine.topology()).map_err(|error| error.to_string())
 }
 
-fn seconds(courses: &[ReplayedMessage]) -> Vec<f64> {
-    courses.iter().map(|course| course.arrived.as_seconds_f64()).collect()
+fn seconds(replayed: &[ReplayedMessage]) -> Vec<f64> {
+    replayed.iter().map(|times| times.arrived.as_seconds_f64()).collect()
 }
 
 const ABOVE_IDEAL: [NetworkModel; 3] =
@@ -46,18 +46,18 @@ const ABOVE_IDEAL: [NetworkModel; 3] =
 const CONTENDING: [NetworkModel; 2] = [NetworkModel::Wormhole, NetworkModel::Flit];
 
 #[test]
-fn a_blocked_worm_blocks_who_comes_behind() {
+fn a_blocked_message_blocks_those_behind_it() {
     let worms = fixture("head-of-line", "row-of-4", NetworkModel::Wormhole).unwrap();
     assert_eq!(seconds(&worms), [1.0, 2.0, 3.0]);
-    let blocked = |course: &ReplayedMessage| (course.blocked().as_seconds_f64(), course.blockers());
+    let blocked = |times: &ReplayedMessage| (times.blocked().as_seconds_f64(), times.blockers());
     assert_eq!(
         worms.iter().map(blocked).collect::<Vec<_>>(),
         [(0.0, vec![]), (1.0, vec![0]), (2.0, vec![1]),]
     );
     // The pipelines fill: a flit's time, 100 µs, a hop, and eight flits wait in each buffer.
     let flits = fixture("head-of-line", "row-of-4", NetworkModel::Flit).unwrap();
-    for (course, expected) in flits.iter().zip([1.0, 2.0, 3.0]) {
-        assert!((course.arrived.as_seconds_f64() - expected).abs() < 2e-3, "{course:?}");
+    for (times, expected) in flits.iter().zip([1.0, 2.0, 3.0]) {
+        assert!((times.arrived.as_seconds_f64() - expected).abs() < 2e-3, "{times:?}");
     }
     assert_eq!(
         flits.iter().map(ReplayedMessage::blockers).collect::<Vec<_>>(),
@@ -80,13 +80,13 @@ fn a_ring_without_virtual_channels_deadlocks_and_names_the_circle() {
         ];
         assert!(message.contains("deadlock in the network: "), "{model}: {message}");
         assert!(circle.iter().all(|part| message.contains(part)), "{model}: {message}");
-        let courses = fixture("round-the-ring", "ring-of-4-two-channels", model).unwrap();
-        assert!(courses.iter().all(|course| course.arrived > Time::ZERO), "{model}");
+        let replayed = fixture("round-the-ring", "ring-of-4-two-channels", model).unwrap();
+        assert!(replayed.iter().all(|times| times.arrived > Time::ZERO), "{model}");
     }
 }
 
 #[test]
-fn alone_a_message_takes_what_the_formula_says() {
+fn alone_a_message_takes_the_time_of_the_formula() {
     let paragon = machine("paragon-xps");
     let software = paragon.parameters.software.clone().unwrap();
     let near = |found: Time, expected: Duration, what: &str| {
@@ -104,9 +104,9 @@ fn alone_a_message_takes_what_the_formula_says() {
             }
             let items = [(0, 1), (1, 0)].map(|(from, to)| item(Time::ZERO, from, to, bytes));
             let trace = Trace { messages: items.to_vec() };
-            let courses = replay(&trace, network().as_mut(), paragon.topology()).unwrap();
-            for course in courses {
-                near(course.arrived, software.one_way(bytes, 1), "exchange");
+            let replayed = replay(&trace, network().as_mut(), paragon.topology()).unwrap();
+            for times in replayed {
+                near(times.arrived, software.one_way(bytes, 1), "exchange");
             }
         }
     }
@@ -130,7 +130,7 @@ fn an_exchange_of_neighbours_costs_the_same_with_and_without_contention() {
     }
 }
 
-/// A network without software, whose cycle is 1 ns, and whose hop takes `cycles` of them.
+/// A network without software, with a cycle of 1 ns and a hop of `cycles`.
 fn bare(flit_bytes: u64, cycles: u64, virtual_channels: u32) -> NetworkParameters {
     let bandwidth = flit_bytes as f64 * 1e9;
     let software = LogGpParameters::bare(Duration(1_000) * cycles, bandwidth);
@@ -142,7 +142,7 @@ fn bare(flit_bytes: u64, cycles: u64, virtual_channels: u32) -> NetworkParameter
 /// flits, uniform traffic saturates at 0.23 to 0.24 flits a cycle and node. A hop takes 5 cycles, as
 /// its default router does: route, virtual channel, switch, crossbar and link.
 #[test]
-fn flits_saturate_where_booksim_s_do() {
+fn flit_saturates_where_booksim_does() {
     let topology = Topology::new(Shape::Mesh { width: 8, height: 8 });
     let accepted = |offered: f64| {
         let every = Duration((20_000.0 / offered) as u64);
@@ -150,8 +150,8 @@ fn flits_saturate_where_booksim_s_do() {
         let load = Load { pattern: Pattern::Uniform, bytes: 20, every, until, seed: 1996 };
         let trace = load.trace(&topology, 64);
         let mut network = bare(1, 5, 1).build(NetworkModel::Flit, &topology).unwrap();
-        let courses = replay(&trace, network.as_mut(), &topology).unwrap();
-        Measured::of(&load, &trace, &courses).throughput / 64e9
+        let replayed = replay(&trace, network.as_mut(), &topology).unwrap();
+        Measured::of(&load, &trace, &replayed).throughput / 64e9
     };
     // Below saturation all that is offered arrives; beyond it no more than at saturation.
     assert!((accepted(0.2) / 0.2 - 1.0).abs() < 0.03, "{}", accepted(0.2));
@@ -159,10 +159,10 @@ fn flits_saturate_where_booksim_s_do() {
     assert!((0.23 * 0.9..0.24 * 1.1).contains(&saturated), "{saturated}");
 }
 
-/// Mean latencies of both models with contention, below saturation: where flits take less than thrice
-/// as long as on an empty network.
+/// Mean latencies of both models with contention below saturation, that is where flits take less than
+/// three times as long as on an empty network.
 #[test]
-fn worms_take_as_long_as_flits() {
+fn wormhole_takes_as_long_as_flit() {
     let topology = Topology::new(Shape::Mesh { width: 8, height: 8 });
     for (pattern, loads) in [
         (Pattern::Uniform, [0.05, 0.15]),
@@ -179,8 +179,8 @@ fn worms_take_as_long_as_flits() {
             let trace = load.trace(&topology, 64);
             let [worms, flits] = CONTENDING.map(|model| {
                 let mut network = bare(32, 2, 1).build(model, &topology).unwrap();
-                let courses = replay(&trace, network.as_mut(), &topology).unwrap();
-                Measured::of(&load, &trace, &courses).latency
+                let replayed = replay(&trace, network.as_mut(), &topology).unwrap();
+                Measured::of(&load, &trace, &replayed).latency
             });
             assert!(flits < 3.0 * 128e-9, "{} {share} is saturated: {flits}", pattern.name());
             let difference = worms / flits - 1.0;
@@ -190,7 +190,7 @@ fn worms_take_as_long_as_flits() {
 }
 
 #[test]
-fn golden_courses_of_a_reduction() {
+fn golden_times_of_a_reduction() {
     // Four nodes of a row send to the first one; the farther ones' worms wait where they meet, and
     // the answer goes out when all have been read.
     let text = r#"[
@@ -202,10 +202,10 @@ fn golden_courses_of_a_reduction() {
     let paragon = machine("paragon-xps");
     let trace = Trace::from_json(text, "t.json", paragon.nodes()).unwrap();
     let mut network = paragon.network_on(NetworkModel::Wormhole).unwrap();
-    let courses = replay(&trace, network.as_mut(), paragon.topology()).unwrap();
-    let lines = courses.iter().zip(&trace.messages).map(|(course, item)| {
-        let (sent, arrived, blocked) = (course.sent, course.arrived, course.blocked());
-        format!("{} {sent} {arrived} {blocked} {:?}", item.name, course.blockers())
+    let replayed = replay(&trace, network.as_mut(), paragon.topology()).unwrap();
+    let lines = replayed.iter().zip(&trace.messages).map(|(times, item)| {
+        let (sent, arrived, blocked) = (times.sent, times.arrived, times.blocked());
+        format!("{} {sent} {arrived} {blocked} {:?}", item.name, times.blockers())
     });
     assert_eq!(
         lines.collect::<Vec<_>>(),
@@ -218,7 +218,7 @@ fn golden_courses_of_a_reduction() {
     );
 }
 
-/// Machines of every topology, small enough that messages meet.
+/// Machines of every topology, small enough for contention.
 fn shapes() -> impl Strategy<Value = Shape> {
     prop_oneof![
         (1..5_u16, 1..4_u16).prop_map(|(width, height)| Shape::Mesh { width, height }),
@@ -246,20 +246,20 @@ proptest! {
         });
         let trace = Trace { messages: items.collect() };
         let mut network = parameters.build(model, &topology).unwrap();
-        let courses = replay(&trace, network.as_mut(), &topology).unwrap();
+        let replayed = replay(&trace, network.as_mut(), &topology).unwrap();
         let mut lasts = BTreeMap::new();
         let mut order: Vec<usize> = (0..trace.messages.len()).collect();
-        order.sort_by_key(|&i| (courses[i].sent, i));
+        order.sort_by_key(|&i| (replayed[i].sent, i));
         for i in order {
-            let (item, course) = (&trace.messages[i], &courses[i]);
+            let (item, times) = (&trace.messages[i], &replayed[i]);
             let places = [item.from, item.to].map(Place::new);
             let least = software.one_way(item.bytes, topology.hops(places[0], places[1]));
-            prop_assert!(course.arrived >= course.sent + least);
-            prop_assert!(course.sent >= item.at);
-            let last = lasts.insert((item.from, item.to), course.arrived);
-            prop_assert!(last.is_none_or(|last| last <= course.arrived));
+            prop_assert!(times.arrived >= times.sent + least);
+            prop_assert!(times.sent >= item.at);
+            let last = lasts.insert((item.from, item.to), times.arrived);
+            prop_assert!(last.is_none_or(|last| last <= times.arrived));
         }
-        one_at_a_time(&trace, &courses, network.as_ref(), model)?;
+        one_at_a_time(&trace, &replayed, network.as_ref(), model)?;
     }
 
     /// First come, first served: heads of worms from everywhere reach a crossbar's way out in the
@@ -273,22 +273,22 @@ proptest! {
         let items = starts.iter().enumerate().map(|(i, &at)| item(Time(at * 1_000), i + 1, 0, 400));
         let trace = Trace { messages: items.collect() };
         let mut network = bare(4, 2, 1).build(model, &topology).unwrap();
-        let courses = replay(&trace, network.as_mut(), &topology).unwrap();
+        let replayed = replay(&trace, network.as_mut(), &topology).unwrap();
         let mut order: Vec<usize> = (0..starts.len()).collect();
         order.sort_by_key(|&i| (starts[i], i));
-        prop_assert!(order.windows(2).all(|pair| courses[pair[0]].arrived < courses[pair[1]].arrived));
+        prop_assert!(order.windows(2).all(|pair| replayed[pair[0]].arrived < replayed[pair[1]].arrived));
     }
 }
 
-/// Every message held each channel alone: none was held for longer than the time that went by, and
-/// messages came into a node one after the other.
+/// Every channel was held by one message at a time: none was held for longer than the run, and messages
+/// arrived at a node one after the other.
 fn one_at_a_time(
     trace: &Trace,
-    courses: &[ReplayedMessage],
+    replayed: &[ReplayedMessage],
     network: &dyn Network,
     model: NetworkModel,
 ) -> Result<(), TestCaseError> {
-    let end = courses.iter().map(|course| course.arrived).max().unwrap_or_default();
+    let end = replayed.iter().map(|times| times.arrived).max().unwrap_or_default();
     for used in network.channel_use() {
         let lanes = match used.channel {
             Channel::Link(_) => 2,
@@ -301,7 +301,7 @@ fn one_at_a_time(
         return Ok(());
     }
     let mut arrivals: Vec<_> =
-        trace.messages.iter().zip(courses).map(|(i, c)| (i.to, c.arrived, i.bytes)).collect();
+        trace.messages.iter().zip(replayed).map(|(i, c)| (i.to, c.arrived, i.bytes)).collect();
     arrivals.sort_unstable();
     for pair in arrivals.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
         prop_assert!(pair[1].1 >= pair[0].1 + Duration(250) * pair[1].2, "{pair:?}");
@@ -310,7 +310,7 @@ fn one_at_a_time(
 }
 
 #[test]
-fn a_program_in_deadlock_is_halted_and_told_why() {
+fn a_program_in_deadlock_is_halted_with_a_report() {
     let ring = machine("fixtures/ring-of-4");
     let simulation = Simulation::new();
     let nodes = Multicomputer::<()>::new(&simulation.handle(), &ring, 3).unwrap();

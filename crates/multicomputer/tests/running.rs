@@ -1,4 +1,4 @@
-//! Machines that run: times that follow closed formulas, order of messages, accounts, a trace.
+//! Running machines: times compared with closed formulas, order of messages, accounts, a golden trace.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -61,7 +61,7 @@ fn multicomputer<M: 'static>(simulation: &Simulation, ranks: usize) -> Multicomp
     Multicomputer::new(&simulation.handle(), &machine(), ranks).expect("there are that many nodes")
 }
 
-/// When a message of `bytes`, alone on the network, has been read `hops` links away.
+/// Time until a message of `bytes`, alone on the network, has been read `hops` links away.
 fn one_way(bytes: u64, hops: u64) -> Duration {
     O_SEND + injection(bytes) + LATENCY + HOP * hops + O_RECEIVE
 }
@@ -130,7 +130,7 @@ fn the_port_injects_one_message_at_a_time() {
 }
 
 #[test]
-fn received_takes_all_that_arrived_and_charges_each() {
+fn received_reads_all_messages_and_charges_each() {
     let simulation = Simulation::new();
     let multicomputer = multicomputer::<usize>(&simulation, 3);
     for rank in [1, 2] {
@@ -154,7 +154,7 @@ fn received_takes_all_that_arrived_and_charges_each() {
 }
 
 #[test]
-fn waiting_ends_with_mail_or_with_the_time() {
+fn waiting_ends_with_a_message_or_at_the_time_limit() {
     let simulation = Simulation::new();
     let multicomputer = multicomputer::<()>(&simulation, 2);
     let (sender, receiver) = (multicomputer.node(0), multicomputer.node(1));
@@ -212,7 +212,7 @@ fn a_stall_names_the_node() {
 }
 
 #[test]
-fn accounts_say_where_the_time_went() {
+fn accounts_divide_a_node_s_time_by_activity() {
     let simulation = Simulation::new();
     let multicomputer = multicomputer::<()>(&simulation, 2);
     let (sender, receiver) = (multicomputer.node(0), multicomputer.node(1));

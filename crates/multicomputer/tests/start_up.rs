@@ -1,4 +1,4 @@
-//! Reading at once through the I/O nodes: contention against its closed form.
+//! Reading of one file through the I/O nodes: contention compared with its closed form.
 
 use std::collections::BTreeMap;
 
@@ -16,7 +16,7 @@ fn disks(io_nodes: usize) -> StartUp {
     }
 }
 
-/// When the last node has read all.
+/// When the last node has read the file.
 fn last(readings: &[Reading]) -> Duration {
     readings.iter().map(|reading| reading.done - Time::ZERO).max().unwrap_or_default()
 }
@@ -36,7 +36,7 @@ fn n_nodes_take_n_times_as_long_through_one_io_node() {
     }
 }
 
-/// But for the first requests, all of which go to the first of them.
+/// Except for the first requests, all of which go to the first I/O node.
 #[test]
 fn k_io_nodes_divide_it() {
     for io_nodes in [2, 3, 4] {
@@ -53,7 +53,7 @@ fn k_io_nodes_divide_it() {
 }
 
 #[test]
-fn a_file_ends_where_it_ends() {
+fn the_last_request_is_shorter() {
     let service = |bytes| disks(1).service(bytes);
     assert_eq!(last(&disks(3).read(1, 1_001)), service(1_000) + service(1));
     assert_eq!(last(&disks(1).read(2, 1)), service(1) * 2);

@@ -1,4 +1,4 @@
-//! Traces that users bring, and those that are refused.
+//! Traces from users' files: valid and invalid ones.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
 
@@ -37,7 +37,7 @@ fn numbers_are_names_too() {
 }
 
 #[test]
-fn faults_name_item_field_value_and_what_was_expected() {
+fn faults_name_message_field_value_and_what_was_expected() {
     let place = |text: &str| {
         // Line and column come first where serde knows them.
         let (file, rest) = text.split_once(": ").unwrap();
@@ -94,7 +94,7 @@ fn circles_are_named() {
 }
 
 #[test]
-fn the_shipped_schema_is_the_code_s() {
+fn the_committed_schema_is_up_to_date() {
     let path = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../machines/schemas"));
     let path = path.join("trace.json");
     let mut text = serde_json::to_string_pretty(&trace_schema()).unwrap();

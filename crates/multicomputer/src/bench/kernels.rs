@@ -1,17 +1,12 @@
-//! Small programs by which machines are measured: ping-pong, exchange, hot spot.
-//!
-//! They run as processes on nodes, as any program does.
+//! Small programs that measure machines: ping-pong, exchange, hot spot. They run as processes on nodes.
 
 use desim::{Simulation, Stalled, Time};
 
-use crate::machine::Multicomputer;
-use crate::machine::{Machine, MachineError};
-use crate::network::Network;
-use crate::network::Shape;
-use crate::node::Node;
-use crate::node::Rank;
+use crate::machine::{Machine, MachineError, Multicomputer};
+use crate::network::{Network, Shape};
+use crate::node::{Node, Rank};
 
-/// A kernel that could not be run to its end.
+/// Why a kernel did not end.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum KernelError {
     /// The machine has too few nodes.
@@ -22,7 +17,7 @@ pub enum KernelError {
     Stalled(#[from] Stalled),
 }
 
-/// Two nodes send a message of `bytes` to and fro, `rounds` times; returns the time of all.
+/// Two nodes send a message of `bytes` back and forth, `rounds` times. Returns the total time.
 ///
 /// # Errors
 /// [`KernelError`], when the machine has too few nodes.
@@ -53,9 +48,8 @@ pub fn ping_pong(
     })
 }
 
-/// In each of `rounds` rounds, every one of `ranks` nodes sends `bytes` to its four neighbours and
-/// waits for theirs: the ranks before and after its own, and those a row before and after, all round
-/// the end. Returns the time of all.
+/// In each of `rounds` rounds, each of `ranks` nodes sends `bytes` to four neighbours and waits for
+/// theirs: the ranks one and a row before and after its own, modulo `ranks`. Returns the total time.
 ///
 /// # Errors
 /// [`KernelError`], when the machine has too few nodes.
@@ -85,8 +79,8 @@ pub fn exchange(
     })
 }
 
-/// All nodes but the first send `bytes` to the first one, `rounds` times without a pause; returns the
-/// time until it has read them all.
+/// All nodes but the first send `bytes` to the first one, `rounds` times without a pause. Returns the
+/// time until it has read all messages.
 ///
 /// # Errors
 /// [`KernelError`], when the machine has too few nodes.
@@ -108,7 +102,7 @@ pub fn hot_spot(
     })
 }
 
-/// Reads at least so many messages; returns how many more it has read.
+/// Reads at least `count` messages. Returns how many more it has read.
 async fn receive(node: &Node<()>, count: usize) -> usize {
     let mut read = 0;
     while read < count {

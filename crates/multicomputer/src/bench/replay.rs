@@ -1,33 +1,32 @@
-//! A trace sent over a network: when each message left and arrived, and what held it up.
+//! Replays a trace over a network: when each message was sent and arrived, and what blocked it.
 
 use std::fmt;
 
-use desim::{Duration, Time};
+use desim::{Duration, EventQueue, Time};
 use thiserror::Error;
 
 use super::trace::{Trace, TraceMessage};
-use crate::network::Agenda;
 use crate::network::{Arrival, Deadlock, Message, Network, Stall};
 use crate::network::{Place, Topology};
 
-/// The course of one message of a trace.
+/// The times of one message of a trace.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ReplayedMessage {
-    /// When its sender's processor took it up.
+    /// When its sender's processor began to send it.
     pub sent: Time,
     /// When its receiver's processor has read it.
     pub arrived: Time,
-    /// How other messages of the trace, named by their indices, held it up on the network.
+    /// Its waits for other messages, which are named by their indices in the trace.
     pub stalls: Vec<Stall>,
 }
 
 impl ReplayedMessage {
-    /// How long other messages held it up on the network, in all.
+    /// Total time that it waited for other messages on the network.
     pub fn blocked(&self) -> Duration {
         self.stalls.iter().map(|stall| stall.span).sum()
     }
 
-    /// Indices of the messages that held it up, in order, each once.
+    /// Indices of the messages that it waited for, in order, each once.
     pub fn blockers(&self) -> Vec<usize> {
         let mut blockers = Vec::new();
         for by in self.stalls.iter().map(|stall| stall.by as usize) {
@@ -39,12 +38,12 @@ impl ReplayedMessage {
     }
 }
 
-/// A replay that does not end.
+/// A replay that ends in a deadlock.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub struct ReplayDeadlock {
-    /// When the last message moved.
+    /// Time of the deadlock.
     pub at: Time,
-    /// Who waits for whom; messages are named by their indices in the trace.
+    /// The circle; messages are named by their indices in the trace.
     pub deadlock: Deadlock,
     text: String,
 }
@@ -55,13 +54,13 @@ impl fmt::Display for ReplayDeadlock {
     }
 }
 
-/// Sends a trace over a network; returns the course of each message, in the trace's order.
+/// Sends a trace over a network. Returns the times of each message, in the trace's order.
 ///
-/// A node's processor does one thing at a time: it sends a message for as long as the network says,
-/// and reads one that has arrived for the receive overhead. Node i stands on place i.
+/// A node's processor does one thing at a time: it sends a message until the network says that it is
+/// free, and reads a message for the receive overhead. Node i is at place i.
 ///
 /// # Errors
-/// [`ReplayDeadlock`] when messages wait for each other for ever.
+/// [`ReplayDeadlock`] if messages wait for each other in a circle.
 pub fn replay(
     trace: &Trace,
     network: &mut dyn Network,
@@ -71,7 +70,7 @@ pub fn replay(
     let mut arrived = Vec::new();
     loop {
         let next = [replay.due.next_time(), network.next_event()].into_iter().flatten().min();
-        let Some(now) = next else { return Ok(replay.courses) };
+        let Some(now) = next else { return Ok(replay.results) };
         network.advance(now, &mut arrived).map_err(|deadlock| {
             let name =
                 |message: &Message| format!("\"{}\"", trace.messages[message.id as usize].name);
@@ -88,10 +87,10 @@ pub fn replay(
 
 struct Replay<'a> {
     messages: &'a [TraceMessage],
-    courses: Vec<ReplayedMessage>,
-    /// Messages that can be sent, by when.
-    due: Agenda<usize>,
-    /// Messages that each one waits for still, and those that wait for it.
+    results: Vec<ReplayedMessage>,
+    /// Messages that can be sent, by time.
+    due: EventQueue<usize>,
+    /// For each message, how many messages it waits for, and the messages that wait for it.
     waits_for: Vec<usize>,
     followers: Vec<Vec<usize>>,
     /// When each node's processor is free.
@@ -103,8 +102,8 @@ impl Replay<'_> {
         let messages = &trace.messages;
         let mut replay = Replay {
             messages,
-            courses: vec![ReplayedMessage::default(); messages.len()],
-            due: Agenda::default(),
+            results: vec![ReplayedMessage::default(); messages.len()],
+            due: EventQueue::default(),
             waits_for: messages.iter().map(|message| message.after.len()).collect(),
             followers: vec![Vec::new(); messages.len()],
             free: vec![Time::ZERO; places],
@@ -112,22 +111,22 @@ impl Replay<'_> {
         for (index, message) in messages.iter().enumerate() {
             message.after.iter().for_each(|&earlier| replay.followers[earlier].push(index));
             if message.after.is_empty() {
-                replay.due.enter(message.at, index);
+                replay.due.schedule(message.at, index);
             }
         }
         replay
     }
 
-    /// A message's time has come: it is sent, or waits until its node's processor is free.
+    /// A message is due: it is sent, or waits until its node's processor is free.
     fn send(&mut self, index: usize, now: Time, network: &mut dyn Network) {
         let &TraceMessage { from, to, bytes, .. } = &self.messages[index];
         if self.free[from] > now {
-            return self.due.enter(self.free[from], index);
+            return self.due.schedule(self.free[from], index);
         }
         let [from_place, to] = [from, to].map(Place::new);
         let message = Message { id: index as u64, from: from_place, to, bytes };
         self.free[from] = network.send(now, message);
-        self.courses[index].sent = now;
+        self.results[index].sent = now;
     }
 
     /// A message has arrived and is read, which may allow others to be sent.
@@ -135,12 +134,12 @@ impl Replay<'_> {
         let index = arrival.message.id as usize;
         let free = &mut self.free[arrival.message.to.index()];
         *free = arrival.at.max(*free) + overhead;
-        self.courses[index].arrived = *free;
-        self.courses[index].stalls = arrival.stalls;
+        self.results[index].arrived = *free;
+        self.results[index].stalls = arrival.stalls;
         for follower in std::mem::take(&mut self.followers[index]) {
             self.waits_for[follower] -= 1;
             if self.waits_for[follower] == 0 {
-                self.due.enter(self.messages[follower].at.max(*free), follower);
+                self.due.schedule(self.messages[follower].at.max(*free), follower);
             }
         }
     }

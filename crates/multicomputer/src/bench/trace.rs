@@ -1,4 +1,4 @@
-//! Traffic that a user brings: messages, when each is sent, and after which others.
+//! Traffic from a user's file: messages, when each is sent, and after which others.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -9,45 +9,44 @@ use petgraph::graph::{DiGraph, NodeIndex};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::file::{MachineFault, read};
-use crate::file::{Quantity, Time as Seconds};
+use crate::file::{MachineFault, Quantity, Time as Seconds, read};
 
-/// Longest message, bytes: beyond it a file can only be a slip.
+/// Longest message, bytes: a longer one must be a mistake.
 const MOST_BYTES: u64 = 1_000_000_000;
-/// Latest time at which a message may be sent, seconds: virtual time ends after 213 days.
+/// Latest time of a send, seconds: virtual time ends after 213 days.
 const LATEST: f64 = 86_400.0;
 
 /// Messages to send.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Trace {
-    /// In the order of the file, which decides between those that are sent at one time.
+    /// In the order of the file, which is the order of sending at equal times.
     pub messages: Vec<TraceMessage>,
 }
 
 /// A message to send.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TraceMessage {
-    /// What the user calls it.
+    /// Its name in the file.
     pub name: String,
-    /// When it is sent, unless `after` or a busy processor delay it.
+    /// When it is sent, unless `after` or a busy processor delays it.
     pub at: Time,
     /// The node that sends it.
     pub from: usize,
     /// The node that receives it.
     pub to: usize,
-    /// Its length.
+    /// Its length in bytes.
     pub bytes: u64,
-    /// Items that must have arrived before it is sent, as indices.
+    /// Indices of the messages that must have arrived before it is sent.
     pub after: Vec<usize>,
 }
 
-/// An item as it stands in the file.
+/// A message in the file.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object that describes a message")]
-struct ItemFile {
-    /// A name or a number that no other message has, without spaces, commas and quotes.
+struct MessageFile {
+    /// A unique name or number, without spaces, commas and quotes.
     id: Id,
-    /// When it is sent, such as "0 us"; later if it comes after others, or its node is busy.
+    /// When it is sent, such as "0 us"; later if it has to wait for others, or if its node is busy.
     at: Quantity<Seconds>,
     /// The node that sends it: compute nodes from 0, then service nodes.
     from: u64,
@@ -55,7 +54,7 @@ struct ItemFile {
     to: u64,
     /// Its length in bytes.
     bytes: u64,
-    /// The ids of messages that must have arrived before it is sent, wherever they went.
+    /// The ids of messages that must have arrived before it is sent, at any node.
     #[serde(default)]
     after: Vec<Id>,
 }
@@ -78,23 +77,23 @@ impl fmt::Display for Id {
 
 /// The JSON Schema of a trace.
 pub fn trace_schema() -> serde_json::Value {
-    let mut schema = schemars::schema_for!(Vec<ItemFile>).to_value();
+    let mut schema = schemars::schema_for!(Vec<MessageFile>).to_value();
     schema["title"] = "Virtwall trace".into();
     schema
 }
 
 impl Trace {
-    /// Reads a trace's text, for a machine of so many `nodes`; `file_name` is for messages only.
+    /// Reads a trace's text, for a machine of `nodes` nodes; `file_name` is for messages only.
     ///
     /// # Errors
-    /// [`MachineFault`], which names file, item, field, value and what was expected.
+    /// [`MachineFault`], with file, message, field, value and what was expected.
     pub fn from_json(text: &str, file_name: &str, nodes: usize) -> Result<Trace, MachineFault> {
-        let checked = read::<Vec<ItemFile>>(text).and_then(|items| check(&items, nodes));
+        let checked = read::<Vec<MessageFile>>(text).and_then(|items| check(&items, nodes));
         checked.map_err(|fault| MachineFault { file: file_name.to_owned(), ..fault })
     }
 }
 
-fn check(items: &[ItemFile], nodes: usize) -> Result<Trace, MachineFault> {
+fn check(items: &[MessageFile], nodes: usize) -> Result<Trace, MachineFault> {
     let mut numbers = BTreeMap::new();
     for (index, item) in items.iter().enumerate() {
         let (id, place) = (item.id.to_string(), format!("[{index}].id"));
@@ -121,10 +120,10 @@ fn check(items: &[ItemFile], nodes: usize) -> Result<Trace, MachineFault> {
     }
 }
 
-/// An item whose fields are right by themselves.
+/// Checks the fields of a message.
 fn checked(
     index: usize,
-    item: &ItemFile,
+    item: &MessageFile,
     nodes: usize,
     numbers: &BTreeMap<String, usize>,
 ) -> Result<TraceMessage, MachineFault> {
@@ -161,21 +160,22 @@ fn checked(
 }
 
 impl Trace {
-    /// Items each of which comes after the next one, and the last one after the first, which stands
-    /// there again; none if all can be sent.
+    /// A circle of messages, each of which waits for the next one; the first one is repeated at the end.
+    /// None if all messages can be sent.
     fn circle(&self) -> Option<Vec<usize>> {
         let edges = self.messages.iter().enumerate();
         let edges =
             edges.flat_map(|(i, item)| item.after.iter().map(move |&j| (i as u32, j as u32)));
         let graph: DiGraph<(), ()> = DiGraph::from_edges(edges);
-        let knots = tarjan_scc(&graph).into_iter();
-        let mut knots =
-            knots.filter(|knot| knot.len() > 1 || graph.contains_edge(knot[0], knot[0]));
-        let knot = knots.next()?;
-        let mut way: Vec<NodeIndex> = vec![*knot.iter().min()?];
+        let components = tarjan_scc(&graph).into_iter();
+        let mut components = components.filter(|component| {
+            component.len() > 1 || graph.contains_edge(component[0], component[0])
+        });
+        let component = components.next()?;
+        let mut way: Vec<NodeIndex> = vec![*component.iter().min()?];
         loop {
             let here = way[way.len() - 1];
-            let next = graph.neighbors(here).filter(|next| knot.contains(next)).min()?;
+            let next = graph.neighbors(here).filter(|next| component.contains(next)).min()?;
             let seen = way.iter().position(|&earlier| earlier == next);
             way.push(next);
             if let Some(seen) = seen {

@@ -1,4 +1,4 @@
-//! Synthetic traffic: the patterns by which networks are compared.
+//! Synthetic traffic: the patterns with which networks are compared.
 
 use desim::{Duration, Time};
 use rand_chacha::ChaCha8Rng;
@@ -9,16 +9,16 @@ use super::trace::{Trace, TraceMessage};
 use crate::network::LinkParameters;
 use crate::network::{Place, Topology};
 
-/// Who sends to whom.
+/// Which nodes send to which.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pattern {
     /// To any other node.
     Uniform,
-    /// To any neighbour on the network, or the nodes next in number where there are none.
+    /// To any neighbour on the network, or the nodes with the next numbers if there are none.
     Neighbour,
-    /// From column x, row y to column y, row x; nodes without such a partner do not send.
+    /// From column x, row y to column y, row x. Nodes without such a partner do not send.
     Transpose,
-    /// To the middle node in one case of five, else to any other node.
+    /// One message of five to the middle node, the others to any other node.
     HotSpot,
     /// To the middle node.
     AllToOne,
@@ -45,8 +45,8 @@ impl Pattern {
         }
     }
 
-    /// The nodes to which a node sends, each as often as it stands there; the node itself stands
-    /// there where it would send to itself, and does not.
+    /// The possible receivers of a node, all equally likely; repeated ones are more likely. If the node
+    /// itself is among them, it sends nothing in that case.
     fn partners(self, topology: &Topology, nodes: usize, from: usize) -> Vec<usize> {
         let middle = nodes / 2;
         let others = || (0..nodes).filter(move |&to| to != from);
@@ -77,15 +77,15 @@ impl Pattern {
     }
 }
 
-/// Bytes a second that every node could send if messages were a fluid: then one channel has as much as
-/// it can carry. A network without infinite buffers takes less.
+/// Upper bound of the bytes a second that every node can send: at this rate one channel is fully used.
+/// A network with finite buffers saturates earlier.
 pub fn fluid_bound(
     pattern: Pattern,
     topology: &Topology,
     nodes: usize,
     links: &LinkParameters,
 ) -> f64 {
-    // Each channel's part of what a node sends, added over all nodes.
+    // Each channel's share of what a node sends, added over all nodes.
     let mut shares = vec![0.0; topology.graph().edge_count()];
     let mut outs = vec![0.0; nodes];
     for from in 0..nodes {
@@ -101,11 +101,11 @@ pub fn fluid_bound(
     links.bandwidth / shares.into_iter().chain(outs).fold(1.0, f64::max)
 }
 
-/// A load of synthetic traffic. Every node sends messages of one size at random moments, at a rate of
-/// its own choosing only in the mean.
+/// A load of synthetic traffic. Every node sends messages of one size at random times (a Poisson
+/// process).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Load {
-    /// Who sends to whom.
+    /// Which nodes send to which.
     pub pattern: Pattern,
     /// Bytes a message.
     pub bytes: u64,
@@ -113,7 +113,7 @@ pub struct Load {
     pub every: Duration,
     /// Until when messages are sent.
     pub until: Time,
-    /// Of the random choices.
+    /// Seed of the random choices.
     pub seed: u64,
 }
 
@@ -143,7 +143,7 @@ impl Load {
         Trace { messages }
     }
 
-    /// A time until the next message, after Poisson.
+    /// A random time until the next message, exponentially distributed.
     fn gap(&self, random: &mut ChaCha8Rng) -> Duration {
         // In (0, 1]: its logarithm is finite.
         let share = ((random.next_u64() >> 11) + 1) as f64 / (1_u64 << 53) as f64;
@@ -152,32 +152,32 @@ impl Load {
     }
 }
 
-/// A number below `count`, evenly spread as `random` is over all numbers.
+/// A uniform number below `count`, from a uniform `random`.
 fn below(count: usize, random: u64) -> usize {
     ((u128::from(random) * count as u128) >> 64) as usize
 }
 
-/// What a load found, after the network has filled and before it empties.
+/// The steady state of a load: without the time in which the network fills and empties.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Measured {
     /// Messages sent between a quarter of the time and its end.
     pub messages: usize,
-    /// Mean time of these from when they were due until they had been read, seconds.
+    /// Mean time of these from when they were due until they were read, seconds.
     pub latency: f64,
     /// Bytes that arrived in that time, a second, over all nodes.
     pub throughput: f64,
 }
 
 impl Measured {
-    /// Measures a load by the courses of its messages.
-    pub fn of(load: &Load, trace: &Trace, courses: &[ReplayedMessage]) -> Measured {
+    /// Measures a load from the times of its messages.
+    pub fn of(load: &Load, trace: &Trace, replayed: &[ReplayedMessage]) -> Measured {
         let from = Time(load.until.0 / 4);
-        let both = || trace.messages.iter().zip(courses);
+        let both = || trace.messages.iter().zip(replayed);
         let latencies: Vec<f64> = both()
             .filter(|(message, _)| message.at >= from)
-            .map(|(message, course)| (course.arrived - message.at).as_seconds_f64())
+            .map(|(message, times)| (times.arrived - message.at).as_seconds_f64())
             .collect();
-        let arrived = both().filter(|(_, course)| (from..load.until).contains(&course.arrived));
+        let arrived = both().filter(|(_, times)| (from..load.until).contains(&times.arrived));
         let bytes: u64 = arrived.map(|(message, _)| message.bytes).sum();
         Measured {
             messages: latencies.len(),

@@ -4,35 +4,33 @@ use desim::Duration;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::file::MachineFault;
-use crate::file::{Bandwidth, Bytes, Quantity, Sourced, whole_bytes};
+use crate::file::{Bandwidth, Bytes, MachineFault, Quantity, Sourced, whole_bytes};
 
-/// What a medium is that carries one frame at a time. Nobody else sends on it, so that there are no
-/// collisions, and frames shorter than the shortest allowed are sent as they are.
+/// An Ethernet without other senders, so without collisions. Frames are not padded to the minimum length.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ethernet {
     /// Bytes a second on the wire.
     pub bandwidth: f64,
     /// The most bytes of a message that a frame carries, at least 1.
     pub payload: u64,
-    /// What goes over the wire with each frame besides: preamble, headers, checksum, gap, bytes.
+    /// Other bytes on the wire for each frame: preamble, headers, checksum, gap.
     pub overhead: u64,
 }
 
 impl Ethernet {
-    /// The frames of a message; an empty one needs a frame, too.
+    /// Frames of a message; an empty message is one frame.
     pub fn frames(&self, bytes: u64) -> u64 {
         bytes.div_ceil(self.payload).max(1)
     }
 
-    /// For how long a message keeps the medium busy.
+    /// How long a message occupies the medium.
     pub fn time(&self, bytes: u64) -> Duration {
         let all = bytes as f64 + self.frames(bytes) as f64 * self.overhead as f64;
         Duration::from_seconds_f64(all / self.bandwidth)
     }
 }
 
-/// The medium, as a machine file has it.
+/// The medium in a machine file.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object that describes an Ethernet")]
 pub(crate) struct EthernetFile {
@@ -40,7 +38,7 @@ pub(crate) struct EthernetFile {
     bandwidth: Sourced<Quantity<Bandwidth>>,
     /// The most bytes of a message that a frame carries.
     payload: Sourced<Quantity<Bytes>>,
-    /// What goes over the wire with each frame besides: preamble, headers, checksum, gap.
+    /// Other bytes on the wire for each frame: preamble, headers, checksum, gap.
     overhead: Sourced<Quantity<Bytes>>,
 }
 

@@ -1,4 +1,4 @@
-//! The service node's end of the way to a display, as the process there sees it.
+//! The service node's end of the connection to a display. Paper: Figure 6, socket_send.
 
 use std::cell::RefCell;
 use std::collections::VecDeque;
@@ -7,46 +7,44 @@ use std::rc::Rc;
 use desim::{Duration, Signal, Time};
 
 use super::display::{Display, WhenFull};
-use crate::node::Activity;
-use crate::node::Buffers;
-use crate::node::Node;
+use crate::node::{Activity, Buffers, Node};
 
-/// What became of the updates for a display.
+/// Counts of the updates for a display.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct DisplayAccount {
-    /// Updates that the display has taken.
+    /// Updates that the display has shown.
     pub shown: u64,
     /// Their bytes.
     pub shown_bytes: u64,
     /// Updates that the service node has dropped.
     pub dropped: u64,
-    /// When the display had taken the last one.
+    /// When the display had shown the last one.
     pub last_shown: Time,
-    /// For how long frames kept the Ethernet busy.
+    /// How long the Ethernet was busy.
     pub ethernet_busy: Duration,
-    /// For how long the display was busy with updates.
+    /// How long the display was busy.
     pub consumer_busy: Duration,
 }
 
-/// A queue of updates at the service node, and the connection that leads from there to the display.
-/// Their contents matter to nobody here: an update is a number of bytes.
+/// The queue of updates at the service node, and the connection from there to the display. An update is
+/// only a number of bytes here.
 pub struct Socket<M> {
     node: Node<M>,
-    line: Rc<Line>,
+    connection: Rc<Connection>,
 }
 
-struct Line {
+struct Connection {
     display: Display,
     state: RefCell<State>,
-    /// The display has taken enough for the next update to be sent.
+    /// There is room in the window for the next update.
     room: Signal,
 }
 
 struct State {
-    /// Updates that were not sent on, by bytes.
+    /// Bytes of each update that was not sent.
     queue: VecDeque<u64>,
     queued_bytes: u64,
-    /// Sent and not taken by the display.
+    /// Updates that were sent and not taken by the display.
     window: Buffers<()>,
     ethernet_free: Time,
     consumer_free: Time,
@@ -65,18 +63,18 @@ impl<M: 'static> Socket<M> {
             account: DisplayAccount::default(),
         };
         let room = Signal::new(node.handle(), "room on the way to the display");
-        let line = Line { display: display.clone(), state: RefCell::new(state), room };
-        Socket { node, line: Rc::new(line) }
+        let connection = Connection { display: display.clone(), state: RefCell::new(state), room };
+        Socket { node, connection: Rc::new(connection) }
     }
 
-    /// Puts an update into the queue; that, or one that waits there, is dropped if there is no room
-    /// and that is what happens then.
+    /// Queues an update. If there is no room, the update or the oldest queued ones are dropped, as
+    /// [`WhenFull`] says.
     pub fn queue(&self, bytes: u64) {
-        let Line { display, state, .. } = &*self.line;
+        let Connection { display, state, .. } = &*self.connection;
         let mut state = state.borrow_mut();
         let fits = |queued: u64| queued == 0 || queued + bytes <= display.service_buffers;
         match display.when_full {
-            // Senders have waited for room, and what they sent was read: it is the program's.
+            // Senders have waited for room in the message buffers, so this queue needs no limit.
             WhenFull::BackPressure => {}
             WhenFull::DropNewest if !fits(state.queued_bytes) => {
                 state.account.dropped += 1;
@@ -93,46 +91,46 @@ impl<M: 'static> Socket<M> {
         state.queued_bytes += bytes;
     }
 
-    /// Whether the process should put more into the queue before it sends on what is there.
+    /// Whether the process should queue more updates before it sends the next one.
     pub fn wants_more(&self) -> bool {
-        self.line.display.when_full != WhenFull::BackPressure
-            || self.line.state.borrow().queue.is_empty()
+        self.connection.display.when_full != WhenFull::BackPressure
+            || self.connection.state.borrow().queue.is_empty()
     }
 
-    /// Sends the update on that has waited longest. The processor makes frames of it and waits until
-    /// the connection takes them. False if there is none.
+    /// Sends the oldest queued update: the processor makes its frames and waits for room in the
+    /// window. Returns false if the queue is empty.
     pub async fn send(&self) -> bool {
-        let Some(bytes) = self.line.state.borrow_mut().take() else { return false };
-        let forwarding = self.line.display.forwarding(bytes);
+        let Some(bytes) = self.connection.state.borrow_mut().take() else { return false };
+        let forwarding = self.connection.display.forwarding(bytes);
         self.node.busy(Activity::Forward, self.node.now() + forwarding).await;
-        if !self.line.state.borrow_mut().window.try_take(bytes) {
-            self.line.state.borrow_mut().window.queue(bytes, ());
-            self.node.wait_in(Activity::WaitForDisplay, &self.line.room).await;
+        if !self.connection.state.borrow_mut().window.try_take(bytes) {
+            self.connection.state.borrow_mut().window.queue(bytes, ());
+            self.node.wait_in(Activity::WaitForDisplay, &self.connection.room).await;
         }
         self.transmit(bytes);
         true
     }
 
-    /// One update at a time crosses the Ethernet, and then the display takes one at a time.
+    /// The Ethernet carries one update at a time, and then the display shows one at a time.
     fn transmit(&self, bytes: u64) {
-        let Line { display, state, .. } = &*self.line;
+        let Connection { display, state, .. } = &*self.connection;
         let mut state = state.borrow_mut();
         let wire = display.ethernet.time(bytes);
         let arrives = state.ethernet_free.max(self.node.now()) + wire;
         let shown = state.consumer_free.max(arrives) + display.update_time;
         (state.ethernet_free, state.consumer_free) = (arrives, shown);
         state.account.ethernet_busy += wire;
-        let line = Rc::downgrade(&self.line);
+        let connection = Rc::downgrade(&self.connection);
         self.node.handle().at(shown, move || {
-            if let Some(line) = line.upgrade() {
-                line.shown(bytes, shown);
+            if let Some(connection) = connection.upgrade() {
+                connection.shown(bytes, shown);
             }
         });
     }
 
-    /// What became of the updates until now.
+    /// The counts until now.
     pub fn account(&self) -> DisplayAccount {
-        self.line.state.borrow().account
+        self.connection.state.borrow().account
     }
 }
 
@@ -144,8 +142,8 @@ impl State {
     }
 }
 
-impl Line {
-    /// The display has taken an update.
+impl Connection {
+    /// The display has shown an update.
     fn shown(&self, bytes: u64, now: Time) {
         let State { account, window, .. } = &mut *self.state.borrow_mut();
         account.shown += 1;

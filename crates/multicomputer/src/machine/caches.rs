@@ -4,12 +4,12 @@ use super::file::{CachesFile, TranslationsFile};
 use crate::file::MachineFault;
 use crate::node::CacheLevel;
 
-/// Largest line and cache, bytes: beyond them a file can only be a slip.
+/// Largest line and cache, bytes: larger ones must be mistakes.
 const LONGEST_LINE: u64 = 65_536;
 const LARGEST_CACHE: u64 = 1 << 30;
 
-/// The levels of a machine file: a line and a number of sets are powers of two, and no line is shorter
-/// than those of the level before.
+/// The levels of a machine file. A line and a number of sets must be powers of two, and a line at least
+/// as long as those of the level before.
 pub(crate) fn levels(files: &CachesFile) -> Result<Vec<CacheLevel>, MachineFault> {
     let mut levels: Vec<CacheLevel> = Vec::new();
     let secondary = files.secondary.as_ref().map(|file| ("secondary", file));
@@ -32,7 +32,7 @@ pub(crate) fn levels(files: &CachesFile) -> Result<Vec<CacheLevel>, MachineFault
     Ok(levels)
 }
 
-/// Translations as a cache of pages of which any may take the place of any other.
+/// The translation look-aside buffer, as a fully associative cache of pages.
 pub(crate) fn translations(file: &TranslationsFile) -> Result<CacheLevel, MachineFault> {
     let (page, ways) = (file.page.value.si, u64::from(file.entries.value.get()));
     if page > LONGEST_LINE as f64 || page.fract() != 0.0 || !(page as u64).is_power_of_two() {

@@ -1,21 +1,20 @@
-//! A machine that runs: its nodes, their mail, and the network between them, over [`desim`].
+//! A running machine: its nodes and the network between them, over [`desim`].
 
-use std::cell::{OnceCell, RefCell};
-use std::rc::{Rc, Weak};
+use std::cell::RefCell;
+use std::rc::Rc;
 
-use desim::{Alarm, Handle};
+use desim::Handle;
 
 use super::machine::{Machine, MachineError};
 use crate::display::Display;
-use crate::network::{ChannelUse, Deadlock, Network};
-use crate::node::MachineObserver;
-use crate::node::Node;
-use crate::node::{Activity, NodeAccount};
-use crate::node::{FullBuffers, Rank};
-use crate::node::{NodeState, Shared, Wires};
+use crate::network::{Deadlock, Network};
+use crate::node::{
+    Activity, FullBuffers, MachineObserver, Node, NodeAccount, NodeState, Rank, Shared,
+};
 
-/// A machine on which processes run that send each other messages of type `M`. Clones are the same
-/// machine.
+/// A machine whose processes send each other messages of type `M`. Clones are the same machine.
+///
+/// Paper: Figure 5, §4.1.
 pub struct Multicomputer<M>(Rc<Shared<M>>);
 
 impl<M> Clone for Multicomputer<M> {
@@ -30,7 +29,7 @@ impl<M: 'static> Multicomputer<M> {
     /// node.
     ///
     /// # Errors
-    /// When there is no compute process, or more than the machine has compute nodes.
+    /// If there is no compute process, or more than the machine has compute nodes.
     pub fn new(
         handle: &Handle,
         machine: &Machine,
@@ -57,25 +56,11 @@ impl<M: 'static> Multicomputer<M> {
             };
             NodeState::new(handle, rank, place, machine.node_memory.as_ref(), room)
         });
-        let nodes = nodes.collect();
-        Ok(Multicomputer(Rc::new_cyclic(|shared: &Weak<Shared<M>>| {
-            let shared = shared.clone();
-            let news = Alarm::new(handle, move || {
-                shared.upgrade().iter().for_each(|shared| shared.advance());
-            });
-            Shared {
-                handle: handle.clone(),
-                layer: machine.message_layer.clone(),
-                wires: RefCell::new(Wires::new(network)),
-                news,
-                nodes,
-                full_buffers: RefCell::default(),
-                observer: OnceCell::new(),
-            }
-        })))
+        let layer = machine.message_layer.clone();
+        Ok(Multicomputer(Shared::new(handle, layer, network, nodes.collect())))
     }
 
-    /// Has all that happens from now on told to `observer`; a machine has no other after it.
+    /// Reports all that happens from now on to `observer`. Only the first observer counts.
     pub fn observe(&self, observer: &Rc<RefCell<dyn MachineObserver<M>>>) {
         if self.0.observer.set(Rc::clone(observer)).is_err() {
             return;
@@ -88,35 +73,29 @@ impl<M: 'static> Multicomputer<M> {
         }
     }
 
-    /// The node of a process, to be moved into it.
+    /// The node of a process.
     ///
     /// # Panics
-    /// When no process has that rank.
+    /// If no process has that rank.
     pub fn node(&self, rank: Rank) -> Node<M> {
         let ranks = self.0.nodes.len();
         assert!(rank < ranks, "no rank {rank}: the ranks are 0 to {}", ranks - 1);
         Node::new(rank, self.0.clone())
     }
 
-    /// Where every node's time has gone until now, in the order of ranks.
+    /// The accounts of all nodes until now, in the order of ranks.
     pub fn accounts(&self) -> Vec<NodeAccount> {
         let now = self.0.handle.now();
         self.0.nodes.iter().map(|node| node.account(now)).collect()
     }
 
-    /// What each channel of the network has done until now.
-    pub fn channel_use(&self) -> Vec<ChannelUse> {
-        self.0.wires.borrow().network.channel_use()
-    }
-
-    /// The processes that wait for room in each other's buffers and halted the simulation, if some
-    /// did.
+    /// The deadlock by full buffers that halted the simulation, if one did.
     pub fn full_buffers(&self) -> Option<FullBuffers> {
         self.0.full_buffers.borrow().clone()
     }
 
     /// The deadlock in the network that halted the simulation, if one did.
     pub fn deadlock(&self) -> Option<Deadlock> {
-        self.0.wires.borrow().deadlock.clone()
+        self.0.transport.borrow().deadlock.clone()
     }
 }

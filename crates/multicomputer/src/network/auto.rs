@@ -126,7 +126,7 @@ struct Delay {
     receiver: Duration,
 }
 
-/// Sends messages at their recorded times over another network. A deadlock delays the rest for ever.
+/// Sends messages at their recorded times over another network. A deadlock delays the rest forever.
 fn delays(record: &Record, messages: &[RecordedMessage], network: &mut dyn Network) -> Vec<Delay> {
     let receiver = network.receive_overhead() - record.receive_overhead;
     let mut delays =

@@ -1,8 +1,8 @@
-//! Channels: what messages take in turns.
+//! Channels: injection ports, links and ejection ports, which messages use in turns.
 
 use super::topology::{Link, Place, Topology};
 
-/// Something that only one message, or one for each virtual channel, uses at a time.
+/// A channel that one message uses at a time, or one for each of its virtual channels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Channel {
     /// From a node into its router: the node's port.

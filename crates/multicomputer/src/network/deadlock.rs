@@ -1,4 +1,4 @@
-//! Messages that wait for each other in a circle.
+//! Deadlock in the network: messages that wait for each other in a circle.
 
 use std::error::Error;
 use std::fmt;
@@ -20,15 +20,15 @@ pub struct Deadlock {
 pub struct Waiting {
     /// The message.
     pub message: Message,
-    /// What it waits for: a channel that the next message of the circle holds.
+    /// The channel that it waits for, which the next message of the circle holds.
     pub channel: Channel,
     /// That channel in words.
     pub channel_name: String,
 }
 
 impl Deadlock {
-    /// Follows `next`, from a message to what it waits for and to who holds that, until the circle
-    /// is closed. Every message that `next` leads to must wait.
+    /// Follows `next`, from a message to the channel that it waits for and the message that holds it,
+    /// until the circle is closed. Every message that `next` leads to must wait.
     pub(crate) fn find(
         start: u32,
         topology: &Topology,

@@ -1,25 +1,25 @@
-//! Wormhole routing, flit by flit and cycle by cycle: slow and obvious, the oracle of the other models.
+//! The model `flit`: wormhole routing, flit by flit and cycle by cycle. Slow and simple, it is the reference
+//! for the faster models.
 //!
-//! A router keeps what comes in by each virtual channel in a buffer of its own. In every cycle
+//! A router has a buffer for each incoming virtual channel. In every cycle
 //! 1. each node's port puts a flit of the message that it sends into its router, if there is room;
 //! 2. each head at the front of a buffer gets a virtual channel of the channel that its route takes
 //!    next, if one is free: first come, first served, and the lower number where two came at once;
-//! 3. each channel takes one flit on, and each channel's buffers give one away: of those that have
-//!    room ahead, the one that was longest not served. The flit can go on from the next buffer
-//!    `hop_time` later, rounded down to cycles, at least one; what was rounded off is added when the
-//!    message arrives. A node takes in a flit a cycle.
+//! 3. each channel transfers at most one flit, and of the buffers of each channel at most one sends a
+//!    flit: of those with room ahead, the one served longest ago. The flit can leave the next buffer
+//!    `hop_time` later, rounded down to cycles, at least one; the remainder is added when the
+//!    message arrives. A node receives a flit a cycle.
 //!
-//! Choice C21: a Paragon's router is unpublished in such detail; this is the plainest one that has
-//! all of the mechanisms.
+//! Choice C21: the details of a Paragon's router are unpublished; this is the simplest one with all of
+//! these mechanisms.
 //!
-//! A virtual channel is free again when the tail has left by it, and room in a buffer counts one cycle
-//! after the flit has gone.
+//! A virtual channel is free again when the tail has passed it. Room in a buffer can be used one cycle
+//! after the flit has left.
 
 use std::collections::VecDeque;
 
-use desim::{Duration, Time};
+use desim::{Duration, EventQueue, Time};
 
-use super::agenda::Agenda;
 use super::channel::Channel;
 use super::deadlock::Deadlock;
 use super::links::LinkParameters;
@@ -37,38 +37,38 @@ pub struct Flit {
     /// Number of the next cycle.
     next: u64,
     ports: Vec<Port>,
-    /// Messages that their senders are through with, when they come to the port.
-    sent: Agenda<u32>,
-    arrivals: Agenda<u32>,
+    /// Messages that reach their port at the end of the send overhead.
+    sent: EventQueue<u32>,
+    arrivals: EventQueue<u32>,
 }
 
 /// A node's port.
 #[derive(Default)]
 struct Port {
-    /// Those that wait, since when.
+    /// Waiting messages, with the start of their wait.
     queue: VecDeque<(u32, Time)>,
     sending: Option<Sending>,
-    /// When it can turn to the next message.
+    /// When it can start the next message.
     free: Time,
     /// The last message.
     last: u64,
 }
 
-/// A message that a port puts into the network.
+/// A message that a port injects.
 #[derive(Clone, Copy)]
 struct Sending {
     worm: u32,
     flits: u64,
-    /// Since when.
+    /// Start of the injection.
     since: Time,
-    /// The cycle of the first flit at the earliest.
+    /// The earliest cycle of the first flit.
     from: u64,
-    /// Flits that are in the network.
+    /// Flits already in the network.
     gone: u64,
 }
 
 impl Flit {
-    /// A network with nothing under way.
+    /// An empty network.
     pub fn new(software: LogGpParameters, links: LinkParameters, topology: &Topology) -> Flit {
         Flit {
             routers: Routers::new(links.clone(), software.hop_time, topology),
@@ -76,13 +76,13 @@ impl Flit {
             links,
             next: 0,
             ports: (0..topology.places()).map(|_| Port::default()).collect(),
-            sent: Agenda::default(),
-            arrivals: Agenda::default(),
+            sent: EventQueue::default(),
+            arrivals: EventQueue::default(),
         }
     }
 
-    /// A port that sends nothing turns to the next message that waits for it.
-    fn turn_port(&mut self, place: usize) {
+    /// Starts the next waiting message of a port that is free.
+    fn start_next(&mut self, place: usize) {
         let port = &mut self.ports[place];
         if port.sending.is_some() {
             return;
@@ -101,7 +101,7 @@ impl Flit {
         port.sending = Some(Sending { worm: number, flits, since, from, gone: 0 });
     }
 
-    /// The next cycle in which something can move; none if nothing is in the network.
+    /// The next cycle in which a flit can move; none if the network is empty.
     fn next_cycle(&self) -> Option<u64> {
         if !self.routers.are_empty() {
             return Some(self.next);
@@ -110,7 +110,7 @@ impl Flit {
         starts.min().map(|from| from.max(self.next))
     }
 
-    /// A cycle. Says whether anything moved, or is on its way through a router.
+    /// Simulates a cycle. Returns whether a flit moved, or is on its way through a router.
     fn step(&mut self, now: u64) -> bool {
         self.next = now.saturating_add(1);
         let mut alive = false;
@@ -121,12 +121,12 @@ impl Flit {
         let rest = self.routers.rest(self.software.hop_time);
         for number in step.out {
             let way = rest * self.routers.worm(number).hops() + self.software.latency;
-            self.arrivals.enter(self.routers.time(now.saturating_add(1)) + way, number);
+            self.arrivals.schedule(self.routers.time(now.saturating_add(1)) + way, number);
         }
         alive || step.alive
     }
 
-    /// A port puts a flit into its router, if it can; says whether it did.
+    /// A port injects a flit, if it can. Returns whether it did.
     fn inject(&mut self, place: usize, now: u64) -> bool {
         let Some(sending) = &mut self.ports[place].sending else { return false };
         let Sending { worm, flits, since, from, gone } = *sending;
@@ -139,7 +139,7 @@ impl Flit {
             self.routers.injected(worm, end - since);
             self.ports[place].free = end + self.software.gap;
             self.ports[place].sending = None;
-            self.turn_port(place);
+            self.start_next(place);
         }
         true
     }
@@ -149,7 +149,7 @@ impl Network for Flit {
     fn send(&mut self, now: Time, message: Message) -> Time {
         let sender_free = now + self.software.send_overhead;
         let worm = self.routers.add(message);
-        self.sent.enter(sender_free, worm);
+        self.sent.schedule(sender_free, worm);
         sender_free
     }
 
@@ -167,7 +167,7 @@ impl Network for Flit {
             while let Some((at, number)) = self.sent.take_due(time) {
                 let place = self.routers.worm(number).message.from.index();
                 self.ports[place].queue.push_back((number, at));
-                self.turn_port(place);
+                self.start_next(place);
             }
             if let Some(cycle) = self.next_cycle().filter(|&cycle| self.routers.time(cycle) <= time)
                 && !self.step(cycle)

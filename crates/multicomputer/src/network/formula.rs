@@ -1,51 +1,50 @@
-//! Networks without contention: when a message arrives is known when it is sent.
+//! Models without contention: the time of arrival is known when a message is sent.
 
-use desim::{Duration, Time};
+use desim::{Duration, EventQueue, Time};
 
-use super::agenda::Agenda;
 use super::deadlock::Deadlock;
 use super::message::Message;
 use super::network::{Arrival, Network, Stall};
 
-/// A closed formula for the course of a message.
+/// A closed formula for the times of a message.
 pub trait Formula {
-    /// The course of a message whose send begins `now`. Called in the order of virtual time.
-    /// Messages between the same two places must arrive in the order in which they are given.
+    /// The times of a message whose send begins `now`. Called in the order of virtual time.
+    /// Messages between the same two places must arrive in the order of the calls.
     fn deliver(&mut self, now: Time, message: &Message) -> Delivery;
 
-    /// What taking one message costs the processor that receives it.
+    /// Time that the receiving processor spends on a message.
     fn receive_overhead(&self) -> Duration;
 }
 
-/// The course of one message.
+/// The times of one message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Delivery {
-    /// When the sending processor may go on; until then it is busy with the message.
+    /// When the sending processor is free.
     pub sender_free: Time,
-    /// When the message stands in the receiver's mailbox.
+    /// When the message arrives in the receiver's mailbox.
     pub arrives: Time,
-    /// How long it waits for the sender's port, if it does.
+    /// Its wait for the sender's port, if it has to wait.
     pub stall: Option<Stall>,
 }
 
-/// A network that follows a formula.
+/// A network without contention, whose messages follow a formula.
 #[derive(Default)]
 pub struct ContentionFree<F> {
     formula: F,
-    arrivals: Agenda<(Message, Option<Stall>)>,
+    arrivals: EventQueue<(Message, Option<Stall>)>,
 }
 
 impl<F: Formula> ContentionFree<F> {
-    /// A network with nothing under way.
+    /// An empty network.
     pub fn new(formula: F) -> ContentionFree<F> {
-        ContentionFree { formula, arrivals: Agenda::default() }
+        ContentionFree { formula, arrivals: EventQueue::default() }
     }
 }
 
 impl<F: Formula> Network for ContentionFree<F> {
     fn send(&mut self, now: Time, message: Message) -> Time {
         let Delivery { sender_free, arrives, stall } = self.formula.deliver(now, &message);
-        self.arrivals.enter(arrives, (message, stall));
+        self.arrivals.schedule(arrives, (message, stall));
         sender_free
     }
 

@@ -1,4 +1,4 @@
-//! Who held a channel, for as long as somebody waits for it.
+//! The messages that held a channel, remembered while another message waits for it.
 
 use std::collections::VecDeque;
 
@@ -7,7 +7,7 @@ use desim::Time;
 use super::channel::Channel;
 use super::network::Stall;
 
-/// The past_holders of a channel, the earliest first.
+/// The past holders of a channel and when each left, the earliest first.
 #[derive(Default)]
 pub(crate) struct PastHolders(VecDeque<(u64, Time)>);
 
@@ -17,14 +17,14 @@ impl PastHolders {
         self.0.push_back((message, until));
     }
 
-    /// Forgets those who left at `now` or earlier.
+    /// Forgets those that left at `now` or earlier.
     pub(crate) fn forget(&mut self, now: Time) {
         while self.0.front().is_some_and(|&(_, until)| until <= now) {
             self.0.pop_front();
         }
     }
 
-    /// Whom somebody has waited for who came at `since` and gets the channel now.
+    /// The waits of a message that has waited since `since` and gets the channel now.
     pub(crate) fn stalls(&self, channel: Channel, since: Time) -> impl Iterator<Item = Stall> {
         let mut from = since;
         self.0.iter().filter(move |&&(_, until)| until > since).map(move |&(by, until)| {

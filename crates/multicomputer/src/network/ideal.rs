@@ -1,4 +1,4 @@
-//! The network that costs nothing: what is left of a run's time is not the network's fault.
+//! The model `ideal`: messages cost nothing. It shows how much of a run's time is not due to the network.
 
 use desim::{Duration, Time};
 

@@ -1,4 +1,4 @@
-//! What the networks with contention need to know of a machine.
+//! Parameters of the models with contention: links and routers.
 
 use desim::Duration;
 
@@ -7,24 +7,24 @@ use super::loggp::LogGpParameters;
 /// The links of a network and the routers between them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkParameters {
-    /// Bytes a second on every channel, at least as many as the software feeds to a node's port.
+    /// Bytes a second on every channel, at least the bandwidth of the message layer.
     pub bandwidth: f64,
     /// Bytes that cross a channel in one cycle, at least 1.
     pub flit_bytes: u64,
-    /// Flits that a router keeps of what comes in by a virtual channel, at least 1.
+    /// Capacity of a router's buffer for each incoming virtual channel, flits, at least 1.
     pub buffer_flits: u32,
-    /// Messages that can have a link at a time, taking turns flit by flit, at least 1. On a torus
-    /// from two on, those that have passed a ring's start have half of them to themselves.
+    /// Virtual channels of a link: messages that can share it, flit by flit; at least 1. On a torus,
+    /// if there are two or more, half of them are reserved for messages that have passed a ring's start.
     pub virtual_channels: u32,
 }
 
 impl LinkParameters {
-    /// Time in which a message's bytes pass a point of the network.
+    /// Time in which a message's bytes cross a channel.
     pub(crate) fn passage(&self, bytes: u64) -> Duration {
         Duration::from_seconds_f64(bytes as f64 / self.bandwidth)
     }
 
-    /// Time in which a flit crosses a channel, at least a tick.
+    /// Time in which a flit crosses a channel, at least one tick.
     pub(crate) fn cycle(&self) -> Duration {
         self.passage(self.flit_bytes).max(Duration::from_ps(1))
     }
@@ -34,16 +34,16 @@ impl LinkParameters {
         (hop_time.as_ps() / self.cycle().as_ps()).max(1)
     }
 
-    /// Flits of a message: it has a head even when it is empty.
+    /// Flits of a message, at least its head.
     pub(crate) fn flits(&self, bytes: u64) -> u64 {
         bytes.div_ceil(self.flit_bytes).max(1)
     }
 
-    /// Time that the software takes for a message before the network can take it in without a pause:
-    /// the software is slower than a link, so a message enters when its rest can follow in time.
+    /// Time from the start of a message's injection until its head can enter the network. The software
+    /// is slower than a link, so the head waits until the rest can follow at the rate of the links.
     ///
-    /// Choice C20: a worm that crawled at the software's pace would hold its links 2.7 times as long;
-    /// the real system sent packets, each of which goes at the links' pace.
+    /// Choice C20: at the rate of the software a message would hold its links 2.7 times as long; the
+    /// real system sent packets, each of which goes at the rate of the links.
     pub(crate) fn gathering(&self, software: &LogGpParameters, bytes: u64) -> Duration {
         software.injection(bytes) - self.passage(bytes)
     }

@@ -1,4 +1,4 @@
-//! LogGP: overhead, latency, gap and gap per byte, with the hops of a mesh and no contention.
+//! The model `loggp`: overhead, latency, gap, gap per byte, and hops, without contention.
 //!
 //! Alexandrov, Ionescu, Schauser, Scheiman: LogGP, SPAA 1995. A message of n bytes takes
 //!
@@ -9,8 +9,8 @@
 //! receiver                                     |-- o --|
 //! ```
 //!
-//! The port works on its own, as the message processor of a Paragon's node does: a sender goes on
-//! after its overhead even when the port is still busy with its earlier messages.
+//! A node's port works independently, like the message processor of a Paragon's node: a sender is free
+//! after its overhead even if the port is still busy with earlier messages.
 
 use desim::{Duration, Time};
 
@@ -38,20 +38,20 @@ pub struct LogGpParameters {
 }
 
 impl LogGpParameters {
-    /// G n: time in which a node's port takes in a message.
+    /// G n: time in which a node's port injects a message.
     pub(crate) fn injection(&self, bytes: u64) -> Duration {
         Duration::from_seconds_f64(bytes as f64 / self.bandwidth)
     }
 
-    /// A message layer that costs nothing, over links of this bandwidth: the bare network.
+    /// The bare network: a message layer without cost, over links of this bandwidth.
     pub fn bare(hop_time: Duration, bandwidth: f64) -> LogGpParameters {
         let (send_overhead, latency) = (Duration::ZERO, Duration::ZERO);
         let (receive_overhead, gap) = (Duration::ZERO, Duration::ZERO);
         LogGpParameters { send_overhead, latency, hop_time, receive_overhead, gap, bandwidth }
     }
 
-    /// The closed formula: from the send of a message of `bytes`, alone on the network, until it has
-    /// been read `hops` links away.
+    /// The closed formula: time from the send of a message of `bytes`, alone on the network, until it
+    /// has been read `hops` links away.
     pub fn one_way(&self, bytes: u64, hops: u32) -> Duration {
         let way = self.latency + self.hop_time * u64::from(hops);
         self.send_overhead + self.injection(bytes) + way + self.receive_overhead
@@ -68,14 +68,14 @@ pub struct LogGp {
 /// A node's port.
 #[derive(Clone, Copy, Default)]
 struct Port {
-    /// When it can begin to inject again.
+    /// When it can inject the next message.
     free: Time,
-    /// The message injected last.
+    /// Id of the last message.
     last: u64,
 }
 
 impl LogGp {
-    /// The model with nothing under way.
+    /// An empty network.
     pub fn new(parameters: LogGpParameters, topology: &Topology) -> LogGp {
         let ports = vec![Port::default(); topology.places()];
         LogGp { parameters, topology: topology.clone(), ports }

@@ -1,16 +1,16 @@
-//! What is sent over a network.
+//! A message, as the network sees it.
 
 use super::topology::Place;
 
 /// A message, as the network sees it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Message {
-    /// The sender's name for it, unlike that of any other message under way.
+    /// The sender's number for it, unique among the messages in flight.
     pub id: u64,
-    /// Where it is sent.
+    /// The sender's place.
     pub from: Place,
-    /// Where it goes.
+    /// The receiver's place.
     pub to: Place,
-    /// Its length.
+    /// Its length in bytes.
     pub bytes: u64,
 }

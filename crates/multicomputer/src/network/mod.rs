@@ -3,8 +3,6 @@
 //!
 //! All models stand behind one trait, [`Network`]; [`NetworkModel`] lists them.
 
-/// Events to come, in the order of time.
-mod agenda;
 /// Which model is good enough.
 mod auto;
 /// Injection, links, ejection: what messages take in turns.
@@ -38,7 +36,6 @@ mod topology;
 /// Wormhole routing, message by message.
 mod wormhole;
 
-pub(crate) use agenda::Agenda;
 pub use auto::{AutoResult, choose};
 pub use channel::Channel;
 pub use deadlock::{Deadlock, Waiting};

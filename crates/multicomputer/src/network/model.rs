@@ -1,4 +1,4 @@
-//! The ladder of network models.
+//! The network models by name, from the cheapest to the most detailed.
 
 use std::fmt;
 use std::str::FromStr;
@@ -15,8 +15,7 @@ use super::network::Network;
 use super::topology::Topology;
 use super::wormhole::Wormhole;
 
-/// A model of the network: each model tells more of what happens than the one below, and costs more
-/// of the host's time.
+/// A network model. Each one models more than the one before it, and costs more of the host's time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum NetworkModel {
     /// Messages arrive at once and cost nothing.
@@ -30,7 +29,7 @@ pub enum NetworkModel {
 }
 
 impl NetworkModel {
-    /// All models, from the lowest.
+    /// All models, the cheapest first.
     pub const ALL: [NetworkModel; 4] =
         [NetworkModel::Ideal, NetworkModel::LogGp, NetworkModel::Wormhole, NetworkModel::Flit];
 
@@ -44,7 +43,7 @@ impl NetworkModel {
         }
     }
 
-    /// Whether it needs to know of links.
+    /// Whether it needs parameters of links.
     pub fn needs_links(self) -> bool {
         self >= NetworkModel::Wormhole
     }
@@ -67,7 +66,7 @@ impl FromStr for NetworkModel {
     }
 }
 
-/// What a machine file, or an experiment, asks for.
+/// The choice of a model in a machine file or an experiment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum ModelChoice {
@@ -79,12 +78,12 @@ pub enum ModelChoice {
     Wormhole,
     /// Flits, buffers and virtual channels, cycle by cycle: slow.
     Flit,
-    /// The cheapest of them whose time differs little from the next one's.
+    /// The cheapest of them whose time differs little from that of the next one.
     Auto,
 }
 
 impl ModelChoice {
-    /// The model of the ladder; none if that is to be found out.
+    /// The chosen model; none for the automatic choice.
     pub fn model(self) -> Option<NetworkModel> {
         match self {
             ModelChoice::Ideal => Some(NetworkModel::Ideal),
@@ -96,17 +95,17 @@ impl ModelChoice {
     }
 }
 
-/// What a machine file says of its network.
+/// Parameters of a machine's network.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NetworkParameters {
-    /// What the message layer takes; every model but the ideal one needs it.
+    /// Of the message layer; every model but `ideal` needs them.
     pub software: Option<LogGpParameters>,
-    /// What the models with contention need.
+    /// Of the links; the models with contention need them.
     pub links: Option<LinkParameters>,
 }
 
 impl NetworkParameters {
-    /// A network on a model, with nothing under way; none without the parameters that it needs.
+    /// An empty network of this model; none without the parameters that it needs.
     pub fn build(&self, model: NetworkModel, topology: &Topology) -> Option<Box<dyn Network>> {
         let software = self.software.clone();
         let links = self.links.clone();

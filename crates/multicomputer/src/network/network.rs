@@ -1,4 +1,4 @@
-//! What a network is: messages go in, time passes, messages arrive.
+//! The trait of all network models: messages are sent, time advances, messages arrive.
 
 use desim::{Duration, Time};
 
@@ -6,61 +6,60 @@ use super::channel::Channel;
 use super::deadlock::Deadlock;
 use super::message::Message;
 
-/// How messages travel. A network is driven from outside, in the order of virtual time: whoever
-/// holds it sends messages and lets time pass.
+/// A network model. Its user drives it in the order of virtual time: it sends messages and advances the
+/// time.
 pub trait Network {
-    /// Takes a message whose send begins `now`. Returns when the sending processor may go on; until
-    /// then it is busy with the message. Messages between the same two places arrive in the order
-    /// in which they are sent.
+    /// Sends a message, beginning `now`. Returns when the sending processor is free. Messages between
+    /// the same two places arrive in the order in which they are sent.
     fn send(&mut self, now: Time, message: Message) -> Time;
 
-    /// What taking one message costs the processor that receives it.
+    /// Time that the receiving processor spends on a message.
     fn receive_overhead(&self) -> Duration;
 
-    /// When something next happens in here by itself; `None` when nothing is under way.
+    /// Time of the network's next event; `None` when nothing is in flight.
     fn next_event(&self) -> Option<Time>;
 
-    /// Lets time pass until `now`, at most to [`Network::next_event`], and adds the messages that
+    /// Advances the time to `now`, at most to [`Network::next_event`], and adds the messages that
     /// arrive to `arrived`.
     ///
     /// # Errors
-    /// When messages wait for each other and none of them will ever arrive.
+    /// If messages wait for each other and none of them can ever arrive.
     fn advance(&mut self, now: Time, arrived: &mut Vec<Arrival>) -> Result<(), Deadlock>;
 
-    /// What each channel has done until now; nothing for a network without channels.
+    /// The use of each channel until now; empty for a model without channels.
     fn channel_use(&self) -> Vec<ChannelUse> {
         Vec::new()
     }
 }
 
-/// A message that stands in the receiver's mailbox.
+/// A message that has arrived in the receiver's mailbox.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Arrival {
     /// The message.
     pub message: Message,
-    /// Since when.
+    /// Time of arrival.
     pub at: Time,
-    /// How other messages held it up on its way.
+    /// Its waits for other messages on the way.
     pub stalls: Vec<Stall>,
 }
 
 /// A wait of one message for another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stall {
-    /// What it waited for.
+    /// The channel that it waited for.
     pub channel: Channel,
-    /// The message that held that meanwhile.
+    /// Id of the message that held the channel meanwhile.
     pub by: u64,
-    /// For how long.
+    /// Length of the wait.
     pub span: Duration,
 }
 
-/// What a channel has done.
+/// The use of a channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ChannelUse {
-    /// Which one.
+    /// The channel.
     pub channel: Channel,
-    /// Messages that came by.
+    /// Messages that passed.
     pub messages: u64,
     /// Time in which it carried bytes.
     pub carrying: Duration,

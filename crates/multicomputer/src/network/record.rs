@@ -1,4 +1,4 @@
-//! What went over a network in a run, written down as it went.
+//! A record of all messages of a run.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -15,39 +15,39 @@ use super::topology::{Place, Topology};
 /// All messages of a run.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Record {
-    /// In the order in which they were sent.
+    /// In the order of sending.
     pub messages: Vec<RecordedMessage>,
-    /// What reading each cost its receiver.
+    /// Time that the receiver spent on each.
     pub receive_overhead: Duration,
 }
 
-/// A message of the past.
+/// A message that was sent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RecordedMessage {
-    /// When it was sent.
+    /// When its send began.
     pub at: Time,
-    /// How long that kept its sender busy.
+    /// How long the sender was busy with it.
     pub sender_busy: Duration,
-    /// Where it was sent.
+    /// The sender's place.
     pub from: Place,
-    /// Where it went.
+    /// The receiver's place.
     pub to: Place,
-    /// Its length.
+    /// Its length in bytes.
     pub bytes: u64,
-    /// When it arrived, if it did.
+    /// When it arrived; none if it has not.
     pub arrived: Option<Time>,
-    /// How long other messages held it up.
+    /// How long it waited for other messages on the way.
     pub blocked: Duration,
 }
 
 impl Record {
-    /// How long messages held each other up, in all.
+    /// Total time that messages waited for each other.
     pub fn blocked(&self) -> Duration {
         self.messages.iter().map(|message| message.blocked).sum()
     }
 
-    /// The part of the time until `end` in which the link that was used most carried bytes; above 1
-    /// if there was more for it than it could have carried. Other channels do not count.
+    /// Utilisation of the busiest link until `end`; above 1 if its messages exceed its capacity.
+    /// Injection and ejection do not count.
     pub fn busiest_link(&self, topology: &Topology, links: &LinkParameters, end: Time) -> f64 {
         let mut busy = vec![0.0; topology.graph().edge_count()];
         let mut bytes: BTreeMap<(Place, Place), u64> = BTreeMap::new();
@@ -64,22 +64,22 @@ impl Record {
     }
 }
 
-/// A network that writes down what goes over it.
+/// A network that records its messages.
 pub struct Recorder {
     network: Box<dyn Network>,
     record: Rc<RefCell<Record>>,
-    /// Messages under way, by their senders' names for them.
-    under_way: BTreeMap<u64, usize>,
+    /// Indices of messages in flight, by id.
+    in_flight: BTreeMap<u64, usize>,
 }
 
 impl Recorder {
-    /// The network, and where its messages will be written down.
+    /// Wraps a network. Returns the wrapper and its record.
     pub fn new(network: Box<dyn Network>) -> (Recorder, Rc<RefCell<Record>>) {
         let receive_overhead = network.receive_overhead();
         let record = Record { messages: Vec::new(), receive_overhead };
         let record = Rc::new(RefCell::new(record));
-        let under_way = BTreeMap::new();
-        (Recorder { network, record: Rc::clone(&record), under_way }, record)
+        let in_flight = BTreeMap::new();
+        (Recorder { network, record: Rc::clone(&record), in_flight }, record)
     }
 }
 
@@ -87,7 +87,7 @@ impl Network for Recorder {
     fn send(&mut self, now: Time, message: Message) -> Time {
         let sender_free = self.network.send(now, message);
         let messages = &mut self.record.borrow_mut().messages;
-        self.under_way.insert(message.id, messages.len());
+        self.in_flight.insert(message.id, messages.len());
         messages.push(RecordedMessage {
             at: now,
             sender_busy: sender_free - now,
@@ -113,7 +113,7 @@ impl Network for Recorder {
         let advanced = self.network.advance(now, arrived);
         let messages = &mut self.record.borrow_mut().messages;
         for Arrival { message, at, stalls } in &arrived[earlier..] {
-            let message = self.under_way.remove(&message.id).and_then(|i| messages.get_mut(i));
+            let message = self.in_flight.remove(&message.id).and_then(|i| messages.get_mut(i));
             if let Some(message) = message {
                 message.arrived = Some(*at);
                 message.blocked = stalls.iter().map(|stall| stall.span).sum();

@@ -1,4 +1,4 @@
-//! Routers: buffers, virtual channels, and the flits that pass through them, cycle by cycle.
+//! Routers of the model `flit`: buffers and virtual channels, cycle by cycle.
 
 use std::collections::{BTreeSet, VecDeque};
 use std::ops::Range;
@@ -19,7 +19,7 @@ pub(crate) struct Routers {
     channels: Channels,
     cycle: Duration,
     hop_cycles: u64,
-    /// By channel, as many for each as there are virtual channels; injections and ejections use one.
+    /// By channel, one for each virtual channel; injections and ejections use only the first.
     lanes: Vec<Lane>,
     /// Lanes with flits in their buffers.
     occupied: BTreeSet<u32>,
@@ -28,51 +28,51 @@ pub(crate) struct Routers {
     idle_worms: Vec<u32>,
 }
 
-/// A virtual channel, and the buffer at its end.
+/// A virtual channel and the buffer at its end.
 #[derive(Default)]
 struct Lane {
-    /// The worm that has the virtual channel, and since which cycle.
+    /// The message that holds the virtual channel, and since which cycle.
     owner: Option<(u32, u64)>,
     buffer: VecDeque<FlitOfWorm>,
-    /// The cycle in which the flit at the front came there.
+    /// The cycle in which the flit at the front arrived there.
     front_since: u64,
-    /// The lane by which the worm at the front goes on.
+    /// The next lane of the message at the front.
     onward: Option<u32>,
-    /// The cycle in which the buffer last gave a flit away.
+    /// The cycle in which the buffer last sent a flit.
     served: u64,
 }
 
 #[derive(Clone, Copy)]
 struct FlitOfWorm {
     worm: u32,
-    /// How far along its path it is.
+    /// Its position on its path.
     step: u32,
     first: bool,
     last: bool,
-    /// The cycle in which it can go on.
+    /// The cycle in which it can leave.
     ready: u64,
 }
 
-/// What a channel has done.
+/// The use of a channel.
 #[derive(Clone, Copy, Default)]
 struct Use {
     messages: u64,
     flits: u64,
     held: Duration,
-    /// The cycle, plus one, in which a flit last came by, and in which its buffers last gave one.
+    /// The cycle, plus one, in which a flit last passed, and in which its buffers last sent one.
     came: u64,
     gave: u64,
-    /// The worm of the flit that last came by, for those that lost their turn to it.
+    /// The message of the flit that last passed, for those that lost arbitration to it.
     by: u32,
 }
 
-/// A message in the network.
+/// A message in the network: a worm of flits.
 pub(crate) struct Worm {
     pub(crate) message: Message,
     pub(crate) flits: u64,
-    /// How other messages have held it up.
+    /// Its waits for other messages.
     pub(crate) stalls: Vec<Stall>,
-    /// Its channels, each with the lanes of it that it may have.
+    /// Its channels, each with the lanes that it may use.
     path: Vec<(usize, Range<u32>)>,
 }
 
@@ -83,16 +83,16 @@ impl Worm {
     }
 }
 
-/// What a cycle did.
+/// The result of a cycle.
 pub(crate) struct Step {
-    /// Whether anything moved, or is on its way through a router.
+    /// Whether a flit moved, or is on its way through a router.
     pub(crate) alive: bool,
-    /// Worms whose last flit has left the network.
+    /// Messages whose last flit has left the network.
     pub(crate) out: Vec<u32>,
 }
 
 impl Routers {
-    /// Routers with nothing in them.
+    /// Empty routers.
     pub(crate) fn new(links: LinkParameters, hop_time: Duration, topology: &Topology) -> Routers {
         let channels = Channels::of(topology);
         let count = channels.count();
@@ -111,12 +111,12 @@ impl Routers {
         }
     }
 
-    /// What of a hop's time the cycles leave over.
+    /// The part of a hop's time beyond whole cycles.
     pub(crate) fn rest(&self, hop_time: Duration) -> Duration {
         hop_time - self.cycle * self.hop_cycles
     }
 
-    /// A worm for a message that is going to be put in.
+    /// Adds a message that will be injected. Returns its number.
     pub(crate) fn add(&mut self, message: Message) -> u32 {
         let mut path = vec![self.way(Channel::Injection(message.from), false)];
         let hops = self.topology.route(message.from, message.to);
@@ -132,17 +132,17 @@ impl Routers {
         number
     }
 
-    /// A worm that is under way.
+    /// A message in the network, by number.
     pub(crate) fn worm(&mut self, number: u32) -> &mut Worm {
         &mut self.worms[number as usize]
     }
 
-    /// A worm has arrived: its number may be given to another.
+    /// A message has arrived: its number can be reused.
     pub(crate) fn retire(&mut self, number: u32) {
         self.idle_worms.push(number);
     }
 
-    /// A channel, and the lanes of it for messages that have passed the start of a ring, or not.
+    /// A channel's number and its lanes for messages that have passed the start of a ring, or have not.
     fn way(&self, channel: Channel, wrapped: bool) -> (usize, Range<u32>) {
         let number = self.channels.number(channel);
         let lanes = self.links.virtual_channels;
@@ -158,12 +158,12 @@ impl Routers {
         (number, lanes)
     }
 
-    /// Whether no buffer holds anything.
+    /// Whether all buffers are empty.
     pub(crate) fn are_empty(&self) -> bool {
         self.occupied.is_empty()
     }
 
-    /// Puts flit number `flit` of a worm into the router of its sender, if there is room.
+    /// Injects flit number `flit` of a message, if there is room.
     pub(crate) fn inject(&mut self, worm: u32, flit: u64, now: u64) -> bool {
         let Worm { flits, path, .. } = &self.worms[worm as usize];
         let (channel, lane) = (path[0].0, path[0].1.start);
@@ -176,14 +176,14 @@ impl Routers {
         true
     }
 
-    /// The last flit of a worm has gone in, which has held its sender's port for so long.
+    /// The last flit of a message is injected, after it has held its sender's port for `held`.
     pub(crate) fn injected(&mut self, worm: u32, held: Duration) {
         let channel = &mut self.uses[self.worms[worm as usize].path[0].0];
         channel.messages += 1;
         channel.held += held;
     }
 
-    /// A flit comes to a buffer.
+    /// A flit enters a buffer.
     fn put(&mut self, number: u32, flit: FlitOfWorm) {
         let lane = &mut self.lanes[number as usize];
         if lane.buffer.is_empty() {
@@ -193,17 +193,17 @@ impl Routers {
         self.occupied.insert(number);
     }
 
-    /// A cycle: heads get virtual channels, then flits move on.
+    /// Simulates a cycle: allocates virtual channels to heads, then moves flits.
     pub(crate) fn step(&mut self, now: u64) -> Step {
         let under_way = self.allocate(now);
         let moves = self.choose_moves(now);
         let alive = under_way || !moves.is_empty();
-        let out = moves.into_iter().filter_map(|lane| self.pass_on(lane, now)).collect();
+        let out = moves.into_iter().filter_map(|lane| self.forward(lane, now)).collect();
         Step { alive, out }
     }
 
-    /// Heads at the front of buffers get virtual channels. Says whether a flit is still on its way to
-    /// the front of a buffer.
+    /// Allocates virtual channels to heads at the front of buffers. Returns whether a flit is still on
+    /// its way through a router.
     fn allocate(&mut self, now: u64) -> bool {
         let mut under_way = false;
         let mut asking = Vec::new();
@@ -223,14 +223,14 @@ impl Routers {
                 self.lanes[free as usize].owner = Some((worm, now));
                 self.lanes[lane as usize].onward = Some(free);
             } else if let Some((by, _)) = self.lanes[lanes.start as usize].owner {
-                self.hold_up(worm, channel, by);
+                self.stall(worm, channel, by);
             }
         }
         under_way
     }
 
-    /// A worm loses a cycle to another.
-    fn hold_up(&mut self, worm: u32, channel: usize, by: u32) {
+    /// A message waits a cycle for another.
+    fn stall(&mut self, worm: u32, channel: usize, by: u32) {
         let by = self.worms[by as usize].message.id;
         let stalls = &mut self.worms[worm as usize].stalls;
         let channel = self.channels.channel(channel);
@@ -240,7 +240,7 @@ impl Routers {
         }
     }
 
-    /// The buffers that give a flit away, by the state before any does.
+    /// Chooses the buffers that send a flit, by the state before any of them does.
     fn choose_moves(&mut self, now: u64) -> Vec<u32> {
         let room = self.links.buffer_flits as usize;
         let mut able = Vec::new();
@@ -257,7 +257,7 @@ impl Routers {
         for (_, lane, onward, worm) in able {
             let [from, to] = [lane, onward].map(|lane| (lane / virtual_channels) as usize);
             if self.uses[to].came > now {
-                self.hold_up(worm, to, self.uses[to].by);
+                self.stall(worm, to, self.uses[to].by);
             } else if self.uses[from].gave <= now {
                 self.uses[from].gave = now.saturating_add(1);
                 (self.uses[to].came, self.uses[to].by) = (now.saturating_add(1), worm);
@@ -267,8 +267,8 @@ impl Routers {
         moves
     }
 
-    /// The flit at the front of a buffer goes on. Returns the worm that is out of the network by it.
-    fn pass_on(&mut self, number: u32, now: u64) -> Option<u32> {
+    /// Moves the flit at the front of a buffer. Returns its message if that has left the network.
+    fn forward(&mut self, number: u32, now: u64) -> Option<u32> {
         let lane = &mut self.lanes[number as usize];
         let (flit, onward) = lane.buffer.pop_front().zip(lane.onward)?;
         lane.served = now;
@@ -294,11 +294,11 @@ impl Routers {
         None
     }
 
-    /// Nothing can move: the circle of those that wait.
+    /// No flit can move: the circle of waiting messages.
     pub(crate) fn deadlock(&self) -> Deadlock {
         let waits = |number: u32| {
             let worm = &self.worms[number as usize];
-            // The worm's foremost flit stands at the front and wants a lane, or behind another worm.
+            // The message's first flit is at the front and needs a lane, or is behind another message.
             let lane = self.occupied.iter().filter_map(|&lane| {
                 let lane = &self.lanes[lane as usize];
                 let flit = lane.buffer.iter().find(|flit| flit.worm == number)?;
@@ -319,7 +319,7 @@ impl Routers {
         Deadlock::find(stuck, &self.topology, waits)
     }
 
-    /// What each channel has done until now.
+    /// The use of each channel until now.
     pub(crate) fn channel_use(&self) -> Vec<ChannelUse> {
         let uses = self.uses.iter().enumerate();
         uses.map(|(number, &Use { messages, flits, held, .. })| ChannelUse {

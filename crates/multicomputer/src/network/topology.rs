@@ -2,7 +2,7 @@
 
 use petgraph::graph::{DiGraph, EdgeIndex, NodeIndex};
 
-/// A place of the network, where a node may stand.
+/// A place of the network, where a node can be.
 pub type Place = NodeIndex;
 
 /// A link from one router to the next, one way.
@@ -17,7 +17,7 @@ pub struct Position {
     pub y: u32,
 }
 
-/// How places are joined.
+/// How places are connected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// Rows and columns.
@@ -34,12 +34,12 @@ pub enum Shape {
         /// Rows.
         height: u16,
     },
-    /// Every place is linked with one switch, both ways: a message takes two links.
+    /// Every place is linked with one switch in both directions: a message takes two links.
     Crossbar {
         /// Places.
         places: u32,
     },
-    /// All messages take one link in common, besides that onto it and that off it.
+    /// All messages share one link, besides a link onto it and a link off it.
     Bus {
         /// Places.
         places: u32,
@@ -51,8 +51,8 @@ pub enum Shape {
 pub struct Hop {
     /// The link taken.
     pub link: Link,
-    /// Whether the message has come, by this link or an earlier one of the same ring, to the ring's
-    /// start again. Messages before and after that point on virtual channels of their own cannot
+    /// Whether the message has passed the ring's start with this link or an earlier one of the same
+    /// ring. If messages before and after that point use different virtual channels, they cannot
     /// wait for each other in a circle (Dally and Seitz 1987).
     pub wrapped: bool,
 }
@@ -107,8 +107,8 @@ impl Topology {
         }
     }
 
-    /// Adds routers on which no node stands, each linked with the next; every place is linked to
-    /// the first and from the last.
+    /// Adds routers without nodes, each linked to the next. Every place is linked to the first and
+    /// from the last.
     fn join_hubs(&mut self, count: usize) {
         let hubs: Vec<NodeIndex> = (0..count).map(|_| self.graph.add_node(())).collect();
         for pair in hubs.windows(2) {
@@ -129,7 +129,7 @@ impl Topology {
         }
     }
 
-    /// How the places are joined.
+    /// How the places are connected.
     pub fn shape(&self) -> Shape {
         self.shape
     }
@@ -139,7 +139,7 @@ impl Topology {
         &self.graph
     }
 
-    /// How many places there are.
+    /// Number of places.
     pub fn places(&self) -> usize {
         self.places
     }
@@ -149,7 +149,7 @@ impl Topology {
         (number < self.places).then(|| NodeIndex::new(number))
     }
 
-    /// What people call a router: the number of its place, or the name of a hub.
+    /// A router's name in messages: the number of its place, or "hub".
     pub(crate) fn router(&self, router: NodeIndex) -> String {
         match router.index().checked_sub(self.places) {
             None => router.index().to_string(),
@@ -157,14 +157,14 @@ impl Topology {
         }
     }
 
-    /// Where a place lies.
+    /// Coordinates of a place.
     pub fn position(&self, place: Place) -> Position {
         let (width, ..) = self.grid();
         let number = place.index() as u32;
         Position { x: number % width, y: number / width }
     }
 
-    /// Links of the route between two places.
+    /// Number of links of the route between two places.
     pub fn hops(&self, from: Place, to: Place) -> u32 {
         let (width, height, rings) = self.grid();
         match self.shape {
@@ -206,8 +206,8 @@ impl Topology {
     }
 }
 
-/// The coordinates that follow `from` on the way to `to`, the shorter one (upwards if both ways of a
-/// ring are equally long), each with whether the ring's start was passed.
+/// The coordinates after `from` on the shorter way to `to` (upwards if both directions of a ring are
+/// equally long), each with whether the ring's start was passed.
 fn steps(from: u32, to: u32, size: u32, ring: bool) -> impl Iterator<Item = (u32, bool)> {
     let ring = ring && size > 2;
     let up = if ring { (to + size - from) % size <= size / 2 } else { to > from };
@@ -293,7 +293,7 @@ mod tests {
                     let route = topology.route(from, to);
                     assert_eq!(route.len() as u32, topology.hops(from, to));
                     assert_eq!(shortest[&to], topology.hops(from, to));
-                    // The route hangs together.
+                    // The route is connected.
                     let mut here = from;
                     for hop in route {
                         let (a, b) = topology.graph().edge_endpoints(hop.link).unwrap();

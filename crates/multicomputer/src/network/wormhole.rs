@@ -1,9 +1,9 @@
-//! Wormhole routing, a message at a time.
+//! The model `wormhole`: wormhole routing, message by message.
 //!
-//! A message is a worm: its head goes from channel to channel along the route, waits in line, first
-//! come, first served, where a channel is held by another worm, and meanwhile holds all that it has.
-//! Once the head is through, the rest follows at the links' rate, and every channel is free when the
-//! tail has passed it. Alone on the network, a message takes what LogGP says:
+//! A message is a worm of flits. Its head goes from channel to channel along the route. Where another
+//! message holds a channel it waits, first come, first served, and keeps the channels that it has. When
+//! the head has arrived, the rest follows at the rate of the links, and every channel is free when the
+//! tail has passed it. Alone on the network, a message takes the time of LogGP:
 //!
 //! ```text
 //! sender    |-- o --|
@@ -12,18 +12,16 @@
 //! receiver                    h H -->|-- n Gl --|-- L --|-- o --|
 //! ```
 //!
-//! Gl is the links' time a byte, h the time of a hop, H the number of hops. A worm shorter than what
-//! the routers' buffers hold gives up the channels behind its tail while its head still waits.
+//! Gl is the time of a byte on a link, h the time of a hop, H the number of hops. A message that fits
+//! into fewer buffers than it has channels frees the channels behind its tail while its head waits.
 //!
-//! Of virtual channels only those that keep a torus free of deadlock are modelled: its links have two
-//! lanes then, which messages may hold at the same time; the bytes of a message go over a link only
-//! after those of another.
+//! Only those virtual channels are modelled that keep a torus free of deadlock: its links then have two
+//! lanes, which two messages can hold at the same time. Their bytes cross the link one after the other.
 
 use std::collections::VecDeque;
 
-use desim::{Duration, Time};
+use desim::{Duration, EventQueue, Time};
 
-use super::agenda::Agenda;
 use super::channel::{Channel, Channels};
 use super::deadlock::Deadlock;
 use super::holders::PastHolders;
@@ -39,64 +37,64 @@ pub struct Wormhole {
     links: LinkParameters,
     topology: Topology,
     channels: Channels,
-    /// By number of the channel; after them, on a torus with second lanes, those.
+    /// By number of the channel, then the second lanes, if there are any.
     lanes: Vec<Lane>,
     second_lanes: bool,
     /// By number of the channel.
     uses: Vec<Use>,
     worms: Vec<Worm>,
     idle_worms: Vec<u32>,
-    agenda: Agenda<Event>,
+    events: EventQueue<Event>,
     waiting: usize,
 }
 
 /// A channel, or one of its virtual channels.
 #[derive(Default)]
 struct Lane {
-    /// The worm that holds it, until its time of leaving is known.
+    /// The message that holds it, until the time of its leaving is known.
     holder: Option<u32>,
-    /// When the last holder has left.
+    /// When the last holder leaves.
     free: Time,
     past_holders: PastHolders,
     queue: VecDeque<u32>,
 }
 
-/// What a channel has done.
+/// The use of a channel.
 #[derive(Clone, Copy, Default)]
 struct Use {
     messages: u64,
     held: Duration,
     carrying: Duration,
-    /// When the bytes given to it will have passed.
+    /// When the bytes assigned to it will have passed.
     passed: Time,
 }
 
-/// A message on its way.
+/// A message in the network.
 struct Worm {
     message: Message,
-    /// Its lanes, each with the time since when it has it.
+    /// Its lanes, each with the time at which it got it.
     path: Vec<(u32, Time)>,
-    /// Lanes that its head has got.
+    /// Number of lanes that its head has entered.
     taken: usize,
-    /// Lanes that its tail has left.
+    /// Number of lanes that its tail has left.
     left: usize,
-    /// Since when its head waits.
+    /// Start of its head's wait.
     since: Time,
     stalls: Vec<Stall>,
 }
 
 #[derive(Clone, Copy)]
 enum Event {
-    /// The head of a worm comes to its next channel.
+    /// The head of a message reaches its next channel.
     Head(u32),
-    /// A lane for which worms wait is free.
+    /// A lane for which messages wait is free.
     Free(u32),
-    /// All of a worm has arrived.
+    /// A message has arrived completely.
     Arrive(u32),
 }
 
 impl Wormhole {
-    /// A network with nothing under way.
+    /// An empty network.
     pub fn new(software: LogGpParameters, links: LinkParameters, topology: &Topology) -> Wormhole {
         let channels = Channels::of(topology);
         let count = channels.count();
@@ -113,12 +111,12 @@ impl Wormhole {
             uses: vec![Use::default(); count],
             worms: Vec::new(),
             idle_worms: Vec::new(),
-            agenda: Agenda::default(),
+            events: EventQueue::default(),
             waiting: 0,
         }
     }
 
-    /// A worm for a message, in the place of one that has arrived if there is any.
+    /// Adds a message. Returns its number, which it may take over from one that has arrived.
     fn worm(&mut self, message: Message) -> u32 {
         let number = self.idle_worms.pop().unwrap_or(self.worms.len() as u32);
         if number as usize == self.worms.len() {
@@ -145,7 +143,7 @@ impl Wormhole {
         lane as usize % self.channels.count()
     }
 
-    /// The head of a worm has come to its next lane: takes it, or waits in line.
+    /// The head of a message has reached its next lane: takes it, or waits in the queue.
     fn request(&mut self, number: u32, now: Time) {
         let worm = &mut self.worms[number as usize];
         let lane_number = worm.path[worm.taken].0;
@@ -154,14 +152,14 @@ impl Wormhole {
             if lane.free <= now {
                 return self.take(number, now);
             }
-            self.agenda.enter(lane.free, Event::Free(lane_number));
+            self.events.schedule(lane.free, Event::Free(lane_number));
         }
         worm.since = now;
         lane.queue.push_back(number);
         self.waiting += 1;
     }
 
-    /// The first in line gets a lane.
+    /// The first message in the queue gets a lane.
     fn grant(&mut self, lane_number: u32, now: Time) {
         let channel = self.channels.channel(self.channel_of(lane_number));
         let lane = &mut self.lanes[lane_number as usize];
@@ -172,12 +170,12 @@ impl Wormhole {
         self.take(number, now);
     }
 
-    /// The head of a worm enters the next lane of its path.
+    /// The head of a message enters the next lane of its path.
     fn take(&mut self, number: u32, now: Time) {
         let worm = &mut self.worms[number as usize];
         let step = worm.taken;
         let lane = &mut self.lanes[worm.path[step].0 as usize];
-        debug_assert!(lane.holder.is_none() && lane.free <= now, "two worms in a lane");
+        debug_assert!(lane.holder.is_none() && lane.free <= now, "two messages in a lane");
         lane.holder = Some(number);
         if lane.queue.is_empty() {
             lane.past_holders.forget(now);
@@ -195,12 +193,12 @@ impl Wormhole {
         };
         match until_next {
             Duration::ZERO => self.request(number, now),
-            span => self.agenda.enter(now + span, Event::Head(number)),
+            span => self.events.schedule(now + span, Event::Head(number)),
         }
     }
 
-    /// The tail of a short worm leaves the lanes that the buffers behind its head make up for.
-    /// Never the one that its head entered last: a buffer keeps one worm at a time.
+    /// The tail of a short message leaves lanes, because the buffers behind its head hold all of it. It
+    /// never leaves the lane that its head entered last: a buffer holds one message at a time.
     fn shrink(&mut self, number: u32, now: Time) {
         let worm = &self.worms[number as usize];
         let flits = self.links.flits(worm.message.bytes);
@@ -217,7 +215,7 @@ impl Wormhole {
         }
     }
 
-    /// The head of a worm is through: its bytes follow, and its tail leaves one lane after another.
+    /// The head of a message has arrived: its bytes follow, and its tail leaves one lane after another.
     fn stream(&mut self, number: u32, now: Time) {
         let worm = &self.worms[number as usize];
         let (steps, left, message) = (worm.path.len(), worm.left, worm.message);
@@ -229,15 +227,15 @@ impl Wormhole {
         }
         let done = start + self.links.passage(message.bytes);
         for step in left..steps {
-            // From the port the tail goes over as many links as from the first link.
+            // From the port the tail crosses as many links as from the first link.
             let ahead = (steps - 1 - step.max(1)) as u64;
             let tail = Time::ZERO + ((done - Time::ZERO) - self.software.hop_time * ahead);
             self.leave(number, step, tail.max(now));
         }
-        self.agenda.enter(done + self.software.latency, Event::Arrive(number));
+        self.events.schedule(done + self.software.latency, Event::Arrive(number));
     }
 
-    /// The tail of a worm will have left a lane of its path at `until`.
+    /// The tail of a message leaves a lane of its path at `until`.
     fn leave(&mut self, number: u32, step: usize, until: Time) {
         let worm = &mut self.worms[number as usize];
         let (lane_number, since) = worm.path[step];
@@ -254,11 +252,11 @@ impl Wormhole {
         lane.free = until + gap;
         lane.past_holders.left(worm.message.id, lane.free);
         if !lane.queue.is_empty() {
-            self.agenda.enter(lane.free, Event::Free(lane_number));
+            self.events.schedule(lane.free, Event::Free(lane_number));
         }
     }
 
-    /// Nothing will happen any more, and worms wait.
+    /// No event is left and messages wait: finds the circle.
     fn deadlock(&self) -> Deadlock {
         let waits = |number: u32| {
             let worm = &self.worms[number as usize];
@@ -276,7 +274,7 @@ impl Network for Wormhole {
     fn send(&mut self, now: Time, message: Message) -> Time {
         let sender_free = now + self.software.send_overhead;
         let worm = self.worm(message);
-        self.agenda.enter(sender_free, Event::Head(worm));
+        self.events.schedule(sender_free, Event::Head(worm));
         sender_free
     }
 
@@ -285,11 +283,11 @@ impl Network for Wormhole {
     }
 
     fn next_event(&self) -> Option<Time> {
-        self.agenda.next_time()
+        self.events.next_time()
     }
 
     fn advance(&mut self, now: Time, arrived: &mut Vec<Arrival>) -> Result<(), Deadlock> {
-        while let Some((at, event)) = self.agenda.take_due(now) {
+        while let Some((at, event)) = self.events.take_due(now) {
             match event {
                 Event::Head(worm) => self.request(worm, at),
                 Event::Free(lane) => self.grant(lane, at),
@@ -301,7 +299,7 @@ impl Network for Wormhole {
                 }
             }
         }
-        match self.waiting > 0 && self.agenda.next_time().is_none() {
+        match self.waiting > 0 && self.events.next_time().is_none() {
             true => Err(self.deadlock()),
             false => Ok(()),
         }

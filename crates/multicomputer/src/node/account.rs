@@ -2,60 +2,60 @@
 
 use desim::{Duration, Time};
 
-/// What a node did with its time, and its traffic. Compute, both overheads, packing, copying, waiting
-/// for room, forwarding, waiting for the display, paging and idle sum exactly to the node's life: from
-/// the start until it finished, or until the account was drawn up.
+/// A node's time by activity, and its messages. The times of all activities add up exactly to the node's
+/// life: from the start until it finished, or until the account was requested.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct NodeAccount {
     /// Time in kernels.
     pub compute: Duration,
-    /// Time given to sending messages.
+    /// Send overhead.
     pub send_overhead: Duration,
-    /// Time given to taking messages in.
+    /// Receive overhead.
     pub receive_overhead: Duration,
-    /// What the rest of the message layer did.
+    /// The rest of the message layer.
     pub layer: LayerAccount,
-    /// Time spent waiting for pages that were not in memory.
+    /// Time spent waiting for pages that were not resident.
     pub paging: Duration,
-    /// Time given to sending what goes on to the display; the service node's.
+    /// Time spent sending updates to the display, on the service node.
     pub forwarding: Duration,
-    /// Time spent waiting for room on the way to the display.
+    /// Time spent waiting for room on the connection to the display.
     pub waiting_for_display: Duration,
-    /// The rest.
+    /// The remaining time.
     pub idle: Duration,
     /// Messages sent.
     pub messages_sent: u64,
     /// Bytes in them.
     pub bytes_sent: u64,
-    /// Messages taken out of the mailbox.
+    /// Messages read.
     pub messages_received: u64,
-    /// The most bytes that program and message buffers have held, where memory is modelled.
+    /// The most bytes in use at a time by program and message buffers; none where memory is not
+    /// modelled.
     pub memory_high_water: Option<u64>,
-    /// When the node finished, if it said so.
+    /// When the node finished; none if it has not.
     pub finished: Option<Time>,
 }
 
 /// What the message layer did on a node, besides the overheads.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LayerAccount {
-    /// Time given to making packets.
+    /// Time spent making packets.
     pub packing: Duration,
-    /// Time given to copying messages that arrived with no receive posted.
+    /// Time spent copying messages that arrived with no receive posted.
     pub copying: Duration,
     /// Time spent waiting for room in receivers' buffers.
     pub waiting_for_room: Duration,
-    /// Time in which the message coprocessor was busy; it is no part of the node's life.
+    /// Time in which the message coprocessor was busy; not a part of the node's life.
     pub coprocessor: Duration,
     /// Messages received that had arrived with no receive posted.
     pub unposted_messages: u64,
     /// Messages sent that had to wait for room in buffers.
     pub held_messages: u64,
-    /// The most bytes that were ever taken of the node's buffers, if they are finite.
+    /// The most bytes in use at a time in the node's buffers; 0 if they are unlimited.
     pub buffer_bytes_most: u64,
 }
 
 impl NodeAccount {
-    /// Time that the processor gave to messages.
+    /// Time that the processor spent on messages.
     pub fn overhead(&self) -> Duration {
         let LayerAccount { packing, copying, waiting_for_room, .. } = self.layer;
         self.send_overhead
@@ -67,14 +67,14 @@ impl NodeAccount {
             + self.waiting_for_display
     }
 
-    /// The node's life: all spans.
+    /// The node's life: the time of all activities.
     pub fn life(&self) -> Duration {
         self.compute + self.overhead() + self.paging + self.idle
     }
 }
 
 impl LayerAccount {
-    /// Adds another node's: sums, and the most bytes in one node's buffers.
+    /// Adds another node's account; of the bytes in buffers, keeps the larger number.
     pub fn add(&mut self, other: &LayerAccount) {
         self.packing += other.packing;
         self.copying += other.copying;
@@ -86,16 +86,16 @@ impl LayerAccount {
     }
 }
 
-/// What a node is doing.
+/// The activity of a node's processor.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Activity {
     /// It runs a kernel.
     Compute,
-    /// It gives a message away.
+    /// It sends a message.
     Send,
-    /// It takes messages in.
+    /// It reads messages.
     Receive,
-    /// It waits for pages that were not in memory.
+    /// It waits for pages that were not resident.
     Paging,
     /// It makes packets.
     Pack,
@@ -103,54 +103,53 @@ pub enum Activity {
     Copy,
     /// It waits for room in a receiver's buffers.
     WaitForRoom,
-    /// It sends on to the display.
+    /// It sends an update to the display.
     Forward,
-    /// It waits for room on the way to the display.
+    /// It waits for room on the connection to the display.
     WaitForDisplay,
-    /// Nothing.
+    /// It waits for messages.
     #[default]
     Idle,
 }
 
-/// Is told a span.
-type Tell = Box<dyn FnMut(Activity, Time, Time)>;
+/// Called for each span, as (activity, from, to).
+type SpanObserver = Box<dyn FnMut(Activity, Time, Time)>;
 
-/// An account that is being kept: at any moment the node does one thing, and when it turns to
-/// another the time since the last turn is entered. So nothing is lost and nothing counted twice.
+/// Keeps a node's account. At each change of activity the time since the last change is entered, so no
+/// time is lost or counted twice.
 #[derive(Default)]
 pub(crate) struct Ledger {
     account: NodeAccount,
     activity: Activity,
     since: Time,
-    /// Is told every span that is entered.
-    observer: Option<Tell>,
+    observer: Option<SpanObserver>,
 }
 
 impl Ledger {
-    /// Has every span from now on told, as (activity, from, to).
+    /// Calls `observer` for every span from now on, as (activity, from, to).
     pub(crate) fn observe(&mut self, observer: impl FnMut(Activity, Time, Time) + 'static) {
         self.observer = Some(Box::new(observer));
     }
 
-    /// The node turns to another activity.
+    /// The node changes to another activity.
     pub(crate) fn turn_to(&mut self, activity: Activity, now: Time) {
         self.enter(now);
         self.activity = activity;
     }
 
-    /// A message leaves.
+    /// A message is sent.
     pub(crate) fn sent(&mut self, bytes: u64) {
         self.account.messages_sent += 1;
         self.account.bytes_sent = self.account.bytes_sent.saturating_add(bytes);
     }
 
-    /// Messages are taken in, some of which arrived with no receive posted.
+    /// Messages are read, some of which arrived with no receive posted.
     pub(crate) fn received(&mut self, messages: u64, unposted: u64) {
         self.account.messages_received += messages;
         self.account.layer.unposted_messages += unposted;
     }
 
-    /// A message must wait for room.
+    /// A message has to wait for room.
     pub(crate) fn held(&mut self) {
         self.account.layer.held_messages += 1;
     }

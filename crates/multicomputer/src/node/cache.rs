@@ -1,19 +1,19 @@
-//! A processor's caches, line by line, and the translations of addresses that it holds, page by page.
+//! A processor's data caches, line by line, and its translation look-aside buffer, page by page.
 
 /// One level of a memory hierarchy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CacheLevel {
-    /// Bytes that it holds.
+    /// Its capacity, bytes.
     pub size: u64,
-    /// Bytes that a miss fetches.
+    /// Bytes that a miss loads.
     pub line: u64,
-    /// Lines among which the least recently used one makes room.
+    /// Associativity: the lines of a set, of which the least recently used one is replaced.
     pub ways: u64,
-    /// Seconds by which a miss is slower than a hit, when the next level has the line.
+    /// Seconds by which a miss is slower than a hit if the next level has the line.
     pub miss_time: f64,
 }
 
-/// What the caches of one processor hold, and how often they missed.
+/// The contents of one processor's caches, and their misses so far.
 #[derive(Clone, Debug)]
 pub struct Caches {
     levels: Vec<Cache>,
@@ -23,38 +23,38 @@ pub struct Caches {
 #[derive(Clone, Debug)]
 struct Cache {
     level: CacheLevel,
-    /// A line's bytes and the number of sets less one, as shift and mask.
+    /// Log2 of a line's bytes, and the number of sets less one.
     line: u32,
     sets: u64,
-    /// The line held by each way of each set, the one used last first.
+    /// The line in each way of each set, the most recently used one first.
     held: Vec<u64>,
     misses: u64,
 }
 
-/// The pages whose addresses are known: a cache of one set with very many ways, of which the one used
-/// last is told from the others by when that was.
+/// The translation look-aside buffer: a cache of pages with one set. It has too many ways for a sorted
+/// list, so it stores the time of each page's last use.
 #[derive(Clone, Debug)]
 struct Translations {
     level: CacheLevel,
     shift: u32,
-    /// When each page was used last, 0 for those that are not known.
+    /// When each page was used last; 0 for those that are not in the buffer.
     used: Vec<u64>,
     known: Vec<usize>,
     now: u64,
     misses: u64,
 }
 
-/// No line is that far up.
+/// No valid line has this number.
 const NONE: u64 = u64::MAX;
 
 impl Caches {
-    /// Empty caches, the nearest level first, and no translations known, where misses of them count.
+    /// Empty caches, the nearest level first, and an empty look-aside buffer, if there is one.
     pub fn new(levels: &[CacheLevel], translations: Option<&CacheLevel>) -> Caches {
         let levels = levels.iter().map(Cache::new).collect();
         Caches { levels, translations: translations.map(Translations::new) }
     }
 
-    /// Read or write some bytes, at least one.
+    /// Reads or writes some bytes, at least one.
     #[inline]
     pub fn touch(&mut self, address: u64, bytes: u64) {
         if let Some(pages) = &mut self.translations {
@@ -75,17 +75,17 @@ impl Caches {
         self.levels.iter().map(|cache| cache.misses)
     }
 
-    /// Pages so far whose translation was not there.
+    /// Misses of the translation look-aside buffer so far.
     pub fn untranslated(&self) -> u64 {
         self.translations.as_ref().map_or(0, |pages| pages.misses)
     }
 
-    /// Seconds that all misses of the levels so far cost.
+    /// Seconds that all cache misses so far cost.
     pub fn time(&self) -> f64 {
         self.levels.iter().map(Cache::time).sum()
     }
 
-    /// Seconds that all missing translations so far cost.
+    /// Seconds that all misses of the look-aside buffer so far cost.
     pub fn translating_time(&self) -> f64 {
         self.translations.as_ref().map_or(0.0, |pages| pages.misses as f64 * pages.level.miss_time)
     }
@@ -106,7 +106,7 @@ impl Cache {
         self.misses as f64 * self.level.miss_time
     }
 
-    /// Use a line; whether it was there.
+    /// Uses a line. Returns whether it was there.
     #[inline]
     fn touch(&mut self, line: u64) -> bool {
         let ways = self.level.ways as usize;
@@ -131,7 +131,7 @@ impl Translations {
         Translations { level, shift, used, known, now: 0, misses: 0 }
     }
 
-    /// Use a page.
+    /// Uses a page.
     #[inline]
     fn touch(&mut self, page: u64) {
         let page = page as usize;
@@ -179,9 +179,9 @@ mod tests {
         assert_eq!(misses(&[level(256, 32, 2)], &touches), [4]);
     }
 
-    /// The list of pages, the one used last at its end, searched from end to end.
+    /// Compared with a list of pages in order of use, searched linearly.
     #[test]
-    fn translations_are_those_of_the_pages_used_last() {
+    fn the_look_aside_buffer_holds_the_pages_used_last() {
         let pages = level(64 * 8_192, 8_192, 64);
         let mut caches = Caches::new(&[level(256, 32, 1)], Some(&pages));
         let (mut held, mut expected, mut random) = (Vec::new(), 0, 1_u64);

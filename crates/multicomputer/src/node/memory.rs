@@ -1,65 +1,64 @@
-//! Memory of a node: what a program keeps there, how much of it is resident, and what paging costs.
+//! Memory of a node: which of a program's segments are resident, and what paging costs.
 
 use std::collections::BTreeMap;
 
 use desim::Duration;
 
-/// What a machine has of memory on every node.
+/// The memory of every node of a machine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NodeMemory {
-    /// What the operating system leaves to the program and to message buffers, bytes.
+    /// What the operating system leaves for the program and for message buffers, bytes.
     pub available: u64,
-    /// Set aside for messages that have arrived and were not read, bytes; what exceeds it takes
-    /// from the program's share.
+    /// Reserved for messages that have arrived and were not read, bytes. More such messages take
+    /// room from the program.
     pub message_buffers: u64,
-    /// What one fault brings in, bytes.
+    /// What one page fault loads, bytes.
     pub burst: u64,
-    /// Time of a fault until its first byte comes.
+    /// Time of a page fault until its first byte is loaded.
     pub fault_time: Duration,
-    /// Bytes a second at which the others follow.
+    /// Bytes a second at which the rest is loaded.
     pub bandwidth: f64,
-    /// Bytes of each thing that programs keep, by name.
+    /// Bytes of each kind of record that programs allocate, by name.
     pub sizes: BTreeMap<String, u64>,
 }
 
 impl NodeMemory {
-    /// Time to bring in `bytes` that lie together.
+    /// Time to load `bytes` at consecutive addresses.
     pub fn page_in(&self, bytes: u64) -> Duration {
         self.fault_time * bytes.div_ceil(self.burst)
             + Duration::from_seconds_f64(bytes as f64 / self.bandwidth)
     }
 }
 
-/// The program's name for something in its memory that is used, and paged, as a whole.
+/// The program's number for a part of its memory that is used, and paged, as a whole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Segment(pub u64);
 
-/// What a node's memory holds. What was used least recently is paged out first; the resident
-/// segments are always the most recently used ones, so that more memory never means more faults of
-/// the same program.
+/// The allocated segments, and which of them are resident: the most recently used ones. So more memory
+/// never means more page faults of the same program.
 ///
 /// Paging out costs nothing here: the system cleans pages while the program goes on.
-pub(crate) struct Residence {
+pub(crate) struct ResidentSet {
     memory: NodeMemory,
-    /// All segments, with their bytes, and when they were used last if they are resident.
-    held: BTreeMap<Segment, (u64, Option<u64>)>,
-    /// The resident ones by last use.
+    /// All segments, with their bytes, and the number of their last use if they are resident.
+    allocated: BTreeMap<Segment, (u64, Option<u64>)>,
+    /// The resident ones, by last use.
     resident: BTreeMap<u64, Segment>,
-    held_bytes: u64,
+    allocated_bytes: u64,
     resident_bytes: u64,
     unread_bytes: u64,
     uses: u64,
     high_water: u64,
 }
 
-impl Residence {
-    /// Memory with nothing in it.
-    pub(crate) fn new(memory: &NodeMemory) -> Residence {
-        Residence {
+impl ResidentSet {
+    /// Empty memory.
+    pub(crate) fn new(memory: &NodeMemory) -> ResidentSet {
+        ResidentSet {
             memory: memory.clone(),
-            held: BTreeMap::new(),
+            allocated: BTreeMap::new(),
             resident: BTreeMap::new(),
-            held_bytes: 0,
+            allocated_bytes: 0,
             resident_bytes: 0,
             unread_bytes: 0,
             uses: 0,
@@ -67,50 +66,50 @@ impl Residence {
         }
     }
 
-    /// The most bytes that program and message buffers have held.
+    /// The most bytes in use at a time by program and message buffers.
     pub(crate) fn high_water(&self) -> u64 {
         self.high_water
     }
 
-    /// What the program holds, in memory or paged out.
-    pub(crate) fn held_bytes(&self) -> u64 {
-        self.held_bytes
+    /// Bytes that the program has allocated, resident or paged out.
+    pub(crate) fn allocated_bytes(&self) -> u64 {
+        self.allocated_bytes
     }
 
-    /// The program makes a segment.
+    /// The program allocates a segment.
     pub(crate) fn keep(&mut self, segment: Segment, bytes: u64) {
         self.release(segment);
-        self.held.insert(segment, (bytes, None));
-        self.held_bytes += bytes;
-        self.bring_in(segment);
+        self.allocated.insert(segment, (bytes, None));
+        self.allocated_bytes += bytes;
+        self.page_in(segment);
     }
 
-    /// The program uses a segment; returns how long it waits for it.
+    /// The program uses a segment. Returns how long it waits for it.
     pub(crate) fn touch(&mut self, segment: Segment) -> Duration {
-        let Some(&(bytes, used)) = self.held.get(&segment) else { return Duration::ZERO };
+        let Some(&(bytes, used)) = self.allocated.get(&segment) else { return Duration::ZERO };
         if used.is_some() {
             self.page_out(segment);
         }
-        self.bring_in(segment);
+        self.page_in(segment);
         if used.is_some() { Duration::ZERO } else { self.memory.page_in(bytes) }
     }
 
-    /// The program needs a segment no more.
+    /// The program frees a segment.
     pub(crate) fn release(&mut self, segment: Segment) {
         self.page_out(segment);
-        if let Some((bytes, _)) = self.held.remove(&segment) {
-            self.held_bytes -= bytes;
+        if let Some((bytes, _)) = self.allocated.remove(&segment) {
+            self.allocated_bytes -= bytes;
         }
     }
 
-    /// So many bytes in messages that have arrived are not read yet.
+    /// Sets the bytes of messages that have arrived and were not read.
     pub(crate) fn set_unread(&mut self, bytes: u64) {
         self.unread_bytes = bytes;
         self.make_room();
     }
 
-    fn bring_in(&mut self, segment: Segment) {
-        if let Some((bytes, used)) = self.held.get_mut(&segment) {
+    fn page_in(&mut self, segment: Segment) {
+        if let Some((bytes, used)) = self.allocated.get_mut(&segment) {
             self.uses += 1;
             *used = Some(self.uses);
             self.resident.insert(self.uses, segment);
@@ -120,7 +119,7 @@ impl Residence {
     }
 
     fn page_out(&mut self, segment: Segment) {
-        if let Some((bytes, used)) = self.held.get_mut(&segment)
+        if let Some((bytes, used)) = self.allocated.get_mut(&segment)
             && let Some(used) = used.take()
         {
             self.resident.remove(&used);
@@ -128,10 +127,10 @@ impl Residence {
         }
     }
 
-    /// Pages out until the rest fits: the segment just used as well, if it alone is too large.
+    /// Pages out until the rest fits, the segment just used included if it alone is too large.
     fn make_room(&mut self) {
         let buffers = self.unread_bytes.max(self.memory.message_buffers);
-        self.high_water = self.high_water.max(self.held_bytes.saturating_add(buffers));
+        self.high_water = self.high_water.max(self.allocated_bytes.saturating_add(buffers));
         let room = self.memory.available.saturating_sub(buffers);
         while self.resident_bytes > room
             && let Some((_, &oldest)) = self.resident.first_key_value()
@@ -157,15 +156,15 @@ mod tests {
     }
 
     fn waits(available: u64, sizes: &[u64], uses: &[u64]) -> Duration {
-        let mut residence = Residence::new(&memory(available));
+        let mut resident = ResidentSet::new(&memory(available));
         for (name, &bytes) in (0..).zip(sizes) {
-            residence.keep(Segment(name), bytes);
+            resident.keep(Segment(name), bytes);
         }
-        uses.iter().map(|&name| residence.touch(Segment(name))).sum()
+        uses.iter().map(|&name| resident.touch(Segment(name))).sum()
     }
 
     #[test]
-    fn what_was_used_least_recently_is_paged_out() {
+    fn the_least_recently_used_segment_is_paged_out() {
         // Room for 20 bytes: 0 goes when 2 comes, 1 when 0 comes back; 20 bytes are three faults.
         let seconds = |uses: &[u64]| waits(30, &[8, 8, 8], uses).as_seconds_f64();
         assert_eq!(seconds(&[2, 1, 2]), 0.0);
@@ -186,17 +185,17 @@ mod tests {
     }
 
     #[test]
-    fn messages_unread_take_the_programs_room() {
-        let mut residence = Residence::new(&memory(30));
-        residence.keep(Segment(0), 20);
-        residence.set_unread(10);
-        assert_eq!((residence.touch(Segment(0)), residence.high_water()), (Duration::ZERO, 30));
-        residence.set_unread(11);
-        residence.set_unread(0);
-        assert_eq!(residence.high_water(), 31);
-        assert!(residence.touch(Segment(0)) > Duration::ZERO);
-        residence.release(Segment(0));
-        residence.keep(Segment(1), 1);
-        assert_eq!(residence.high_water(), 31);
+    fn unread_messages_take_room_from_the_program() {
+        let mut resident = ResidentSet::new(&memory(30));
+        resident.keep(Segment(0), 20);
+        resident.set_unread(10);
+        assert_eq!((resident.touch(Segment(0)), resident.high_water()), (Duration::ZERO, 30));
+        resident.set_unread(11);
+        resident.set_unread(0);
+        assert_eq!(resident.high_water(), 31);
+        assert!(resident.touch(Segment(0)) > Duration::ZERO);
+        resident.release(Segment(0));
+        resident.keep(Segment(1), 1);
+        assert_eq!(resident.high_water(), 31);
     }
 }

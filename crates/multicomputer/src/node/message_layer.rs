@@ -1,35 +1,33 @@
-//! What the message layer of a node adds to the overheads of a message: packets, a coprocessor, the
-//! copy of a message that nobody waited for, and buffers that can be full.
+//! The message layer of a node: packets, a coprocessor, copies of unexpected messages, and finite buffers.
 //!
-//! Each is a part of the machine file by itself, and absent unless it stands there:
+//! It adds to the overheads of the network model. Each part is optional in the machine file:
 //!
 //! ```text
 //! sender     |-- room in the receiver's buffers? --|-- a packet --|-- a packet --|-- o --|
 //! receiver                                         ... network ... |-- o --|-- copy --|
 //! ```
 //!
-//! All of it, but for the copy, moves to the coprocessor where a node has one; the processor then
-//! only hands the message over, or takes it from there.
+//! A coprocessor does all of this but the copy; the processor then only hands a message over, or takes
+//! it from there.
 
 use desim::Duration;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::file::MachineFault;
-use crate::file::{Bandwidth, Bytes, Quantity, Sourced, Time, whole_bytes};
+use crate::file::{Bandwidth, Bytes, MachineFault, Quantity, Sourced, Time, whole_bytes};
 
-/// What a node's message layer does besides LogGP's overheads; the default is nothing.
+/// A node's message layer, besides the overheads of the network model. By default it costs nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MessageLayer {
     /// The packets that a message is cut into.
     pub packets: Option<Packets>,
-    /// For a message that the coprocessor sends or receives, the time of the processor, which hands
-    /// it over or takes it; none without a coprocessor.
+    /// The processor's time to hand a message over to the coprocessor, or to take it from there; none
+    /// without a coprocessor.
     pub handover: Option<Duration>,
-    /// Bytes a second of the copy out of system buffers that a message needs for which no receive
-    /// was posted: one that arrives while its receiver does not wait. Always the processor's.
+    /// Bytes a second at which the processor copies a message out of system buffers. Only a message
+    /// that arrives with no receive posted, while its receiver does not wait, is copied.
     pub copy_bandwidth: Option<f64>,
-    /// Bytes of the buffers for messages that arrive at a node and were not read.
+    /// Bytes of a node's buffers for messages that were sent to it and not read; none if unlimited.
     pub buffer_bytes: Option<u64>,
 }
 
@@ -38,37 +36,37 @@ pub struct MessageLayer {
 pub struct Packets {
     /// Bytes of one, at least 1.
     pub bytes: u64,
-    /// Time that one takes before it is sent, be it full or not.
+    /// Time to make one, full or not.
     pub time: Duration,
 }
 
 impl MessageLayer {
-    /// Time to make packets of a message; an empty one needs a packet, too.
+    /// Time to make the packets of a message; an empty message is one packet.
     pub fn packing(&self, bytes: u64) -> Duration {
         let packing = |packets: &Packets| packets.time * bytes.div_ceil(packets.bytes).max(1);
         self.packets.as_ref().map_or(Duration::ZERO, packing)
     }
 
-    /// Time to copy so many bytes of messages out of the buffers.
+    /// Time to copy messages of `bytes` out of the buffers.
     pub fn copying(&self, bytes: u64) -> Duration {
         let copying = |bandwidth| Duration::from_seconds_f64(bytes as f64 / bandwidth);
         self.copy_bandwidth.map_or(Duration::ZERO, copying)
     }
 }
 
-/// The message layer, as a machine file has it.
+/// The message layer in a machine file.
 #[derive(Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields, expecting = "an object that describes a message layer")]
 pub(crate) struct MessageLayerFile {
-    /// A message is cut into packets, each of which takes its sender time.
+    /// Messages are cut into packets, each of which takes the sender time.
     packets: Option<PacketsFile>,
-    /// A second processor sends and receives, while the first one computes.
+    /// A second processor sends and receives messages while the first one computes.
     coprocessor: Option<CoprocessorFile>,
-    /// Bytes a second at which a message is copied that arrives while its receiver does not wait for
+    /// Bytes a second at which a message is copied if it arrives while its receiver does not wait for
     /// one.
     copy_bandwidth: Option<Sourced<Quantity<Bandwidth>>>,
-    /// Room at a node for messages that were sent to it and not read; a sender waits until there is
-    /// enough. A message that is longer has them to itself.
+    /// Room at a node for messages that were sent to it and not read. A sender waits until there is
+    /// enough. A longer message waits until the buffers are empty.
     buffers: Option<Sourced<Quantity<Bytes>>>,
 }
 
@@ -76,9 +74,9 @@ pub(crate) struct MessageLayerFile {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object that describes packets")]
 struct PacketsFile {
-    /// A whole number of bytes.
+    /// Bytes of one, a whole number.
     size: Sourced<Quantity<Bytes>>,
-    /// Time for a packet, full or not, besides that of its bytes on the network.
+    /// Time to make a packet, full or not, in addition to its time on the network.
     time: Sourced<Quantity<Time>>,
 }
 
@@ -86,13 +84,13 @@ struct PacketsFile {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object that describes a message coprocessor")]
 struct CoprocessorFile {
-    /// Time of the first processor for a message that it hands to the coprocessor, or takes from it.
-    /// The overheads of the network's parameters are the coprocessor's.
+    /// Time of the first processor to hand a message to the coprocessor, or to take one from it. The
+    /// coprocessor then has the overheads of the network's parameters.
     handover: Sourced<Quantity<Time>>,
 }
 
 impl MessageLayerFile {
-    /// The message layer, if its sizes are whole numbers of bytes.
+    /// Checks that sizes are whole numbers of bytes.
     pub(crate) fn check(&self) -> Result<MessageLayer, MachineFault> {
         let packets = self.packets.as_ref().map(|packets| {
             let bytes = whole_bytes("message_layer.packets.size", &packets.size)?;

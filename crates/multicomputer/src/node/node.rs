@@ -1,4 +1,4 @@
-//! A node as the process that runs on it sees it: compute, send, receive, wait.
+//! A node's interface for the process that runs on it: compute, send, receive, wait.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -6,11 +6,13 @@ use std::rc::Rc;
 use desim::{Duration, Handle, Signal, Time};
 
 use super::account::Activity;
-use super::buffers::{FullBuffers, Rank};
-use super::memory::{Residence, Segment};
-use super::shared::{Letter, NodeState, Shared, Waiting};
+use super::envelope::{Envelope, Rank};
+use super::full_buffers::FullBuffers;
+use super::memory::{ResidentSet, Segment};
+use super::shared::Shared;
+use super::state::{NodeState, Sender};
 
-/// A node of a running [`crate::Multicomputer`]; cheap to clone and to move into its process.
+/// A node of a running [`crate::Multicomputer`]. Clones are the same node.
 pub struct Node<M> {
     rank: Rank,
     shared: Rc<Shared<M>>,
@@ -42,38 +44,38 @@ impl<M: 'static> Node<M> {
         self.busy(Activity::Compute, self.now() + span).await;
     }
 
-    /// Sends a message. The processor is busy with it until the send overhead is over, and then goes
-    /// on; the message travels by itself. With a coprocessor that has nothing to do with it but to hand
-    /// it over; without one, it first waits for room in the receiver's buffers and makes packets.
+    /// Sends a message; returns when the processor is free. Without a coprocessor the processor waits
+    /// for room in the receiver's buffers, makes packets, and is busy for the send overhead. With a
+    /// coprocessor it only hands the message over.
     ///
     /// # Panics
     /// When no process has the rank `to`.
     pub async fn send(&self, to: Rank, bytes: u64, message: M) {
-        let letter = Letter { from: self.rank, to, bytes, message };
+        let envelope = Envelope { from: self.rank, to, bytes, message };
         let layer = &self.shared.layer;
         if let Some(handover) = layer.handover {
             self.busy(Activity::Send, self.now() + handover).await;
             self.state().ledger.borrow_mut().sent(bytes);
-            return self.shared.hand_over(letter);
+            return self.shared.hand_over(envelope);
         }
         self.wait_for_room(to, bytes).await;
         let packing = layer.packing(bytes);
         if packing > Duration::ZERO {
             self.busy(Activity::Pack, self.now() + packing).await;
         }
-        let sender_free = self.shared.inject(letter);
+        let sender_free = self.shared.inject(envelope);
         self.state().ledger.borrow_mut().sent(bytes);
         self.busy(Activity::Send, sender_free).await;
     }
 
-    /// Waits until a message of so many bytes finds room in the receiver's buffers, and takes it.
+    /// Takes room for a message in the receiver's buffers; waits until there is enough.
     async fn wait_for_room(&self, to: Rank, bytes: u64) {
         let (sender, receiver) = (self.state(), &self.shared.nodes[to]);
         let Some(buffers) = &receiver.buffers else { return };
         if buffers.borrow_mut().try_take(bytes) {
             return;
         }
-        buffers.borrow_mut().queue(bytes, Waiting::Processor(self.rank));
+        buffers.borrow_mut().queue(bytes, Sender::Processor(self.rank));
         sender.waits_for.set(Some(to));
         let waits_for = |rank: Rank| self.shared.nodes[rank].waits_for.get();
         if let Some(full) = FullBuffers::find(self.rank, waits_for) {
@@ -88,16 +90,17 @@ impl<M: 'static> Node<M> {
         sender.ledger.borrow_mut().turn_to(Activity::Idle, self.now());
     }
 
-    /// Takes what has arrived, in order of arrival. The processor is busy for the receive overhead
-    /// of each message, and with copying those for which no receive was posted; what arrives
-    /// meanwhile is left for the next call. Returns at once when nothing has arrived.
+    /// Reads the messages that have arrived, in order of arrival. The processor is busy for the
+    /// receive overhead of each message, and copies those for which no receive was posted. What
+    /// arrives meanwhile is left for the next call. Returns at once when nothing has arrived.
     pub async fn received(&self) -> Vec<M> {
         let (node, layer) = (self.state(), &self.shared.layer);
         let messages = node.take_mail();
         if !messages.is_empty() {
-            self.shared.tell(|observer| observer.read(self.now(), self.rank, messages.len()));
+            self.shared
+                .notify_observer(|observer| observer.read(self.now(), self.rank, messages.len()));
             let (count, unposted) = (messages.len() as u64, node.unposted.take());
-            let overhead = || self.shared.wires.borrow().network.receive_overhead();
+            let overhead = || self.shared.transport.borrow().network.receive_overhead();
             let overhead = layer.handover.unwrap_or_else(overhead);
             node.ledger.borrow_mut().received(count, unposted.messages);
             self.busy(Activity::Receive, self.now() + overhead * count).await;
@@ -110,13 +113,13 @@ impl<M: 'static> Node<M> {
         messages
     }
 
-    /// Whether something has arrived and was not taken.
+    /// Whether a message has arrived and was not read.
     pub fn has_mail(&self) -> bool {
         !self.state().mailbox.borrow().is_empty()
     }
 
-    /// Idle until something has arrived and was not taken; returns at once if that is so now. A
-    /// receive is posted meanwhile, so that the first message to arrive needs no copy.
+    /// Waits until a message has arrived and was not read. A receive is posted meanwhile, so that the
+    /// first message to arrive needs no copy.
     pub async fn wait(&self) {
         while !self.has_mail() {
             self.state().posted.set(true);
@@ -124,7 +127,7 @@ impl<M: 'static> Node<M> {
         }
     }
 
-    /// Like [`Node::wait`], at most until `time`; says whether there is mail.
+    /// Like [`Node::wait`], until `time` at the latest. Returns whether there is a message to read.
     pub async fn wait_until(&self, time: Time) -> bool {
         while !self.has_mail() {
             self.state().posted.set(true);
@@ -136,38 +139,38 @@ impl<M: 'static> Node<M> {
         true
     }
 
-    /// The program makes something that it keeps in memory.
+    /// The program allocates a segment of memory.
     pub fn keep(&self, segment: Segment, bytes: u64) {
-        self.residence().for_each(|residence| residence.borrow_mut().keep(segment, bytes));
+        self.memory().for_each(|memory| memory.borrow_mut().keep(segment, bytes));
     }
 
-    /// The program uses segments, one after the other. Where memory is modelled and one of them is
-    /// not resident, the processor waits until it is.
+    /// The program uses segments, one after the other. The processor waits for those that are not
+    /// resident, where memory is modelled.
     pub async fn touch(&self, segments: impl IntoIterator<Item = Segment>) {
-        let Some(residence) = self.residence().next() else { return };
-        let wait = |segment| residence.borrow_mut().touch(segment);
+        let Some(memory) = self.memory().next() else { return };
+        let wait = |segment| memory.borrow_mut().touch(segment);
         let span: Duration = segments.into_iter().map(wait).sum();
         if span > Duration::ZERO {
             self.busy(Activity::Paging, self.now() + span).await;
         }
     }
 
-    /// The program needs something no more that it kept in memory.
+    /// The program frees a segment.
     pub fn release(&self, segment: Segment) {
-        self.residence().for_each(|residence| residence.borrow_mut().release(segment));
+        self.memory().for_each(|memory| memory.borrow_mut().release(segment));
     }
 
-    /// Bytes that the program keeps, in memory or paged out; 0 where memory is not modelled.
+    /// Bytes that the program has allocated, resident or paged out; 0 where memory is not modelled.
     pub fn bytes_kept(&self) -> u64 {
-        self.residence().map(|residence| residence.borrow().held_bytes()).sum()
+        self.memory().map(|memory| memory.borrow().allocated_bytes()).sum()
     }
 
-    fn residence(&self) -> impl Iterator<Item = &RefCell<Residence>> {
-        self.state().residence.iter()
+    fn memory(&self) -> impl Iterator<Item = &RefCell<ResidentSet>> {
+        self.state().memory.iter()
     }
 
-    /// The node's work is done: its account closes at the present time, and nobody waits for room in
-    /// its buffers any more.
+    /// Ends the node's life: its account closes at the present time, and senders no longer wait for
+    /// room in its buffers.
     pub fn finish(&self) {
         self.state().ledger.borrow_mut().finish(self.now());
         self.shared.open(self.rank);
@@ -177,19 +180,19 @@ impl<M: 'static> Node<M> {
         &self.shared.nodes[self.rank]
     }
 
-    /// Waits for a signal, which goes to `activity`.
+    /// Waits for a signal; the time is entered as `activity`.
     pub(crate) async fn wait_in(&self, activity: Activity, signal: &Signal) {
         self.state().ledger.borrow_mut().turn_to(activity, self.now());
         signal.wait().await;
         self.state().ledger.borrow_mut().turn_to(Activity::Idle, self.now());
     }
 
-    /// The simulation that it runs in.
+    /// The simulation in which it runs.
     pub(crate) fn handle(&self) -> &Handle {
         &self.shared.handle
     }
 
-    /// Time until `end` goes to `activity`, and what follows to idleness until further notice.
+    /// Waits until `end`; the time is entered as `activity`, and what follows as idle.
     pub(crate) async fn busy(&self, activity: Activity, end: Time) {
         self.state().ledger.borrow_mut().turn_to(activity, self.now());
         self.shared.handle.sleep_until(end).await;

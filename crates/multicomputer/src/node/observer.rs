@@ -1,42 +1,42 @@
-//! Who is told what happens on a running machine, as it happens.
+//! The interface for observers of a running machine.
 
 use desim::Time;
 
 use super::account::Activity;
-use super::buffers::Rank;
+use super::envelope::Rank;
 use crate::network::Stall;
 
-/// Told what happens on a [`crate::Multicomputer`], in the order of virtual time. It changes nothing:
-/// a machine that nobody observes runs the same.
+/// Receives the events of a [`crate::Multicomputer`] in the order of virtual time. It does not change the
+/// run.
 pub trait MachineObserver<M> {
-    /// A node has done one thing for a while. Spans follow each other without gap or overlap, from
-    /// the start until the node has finished; those of no length are not told.
+    /// A node has ended a span of one activity. The spans of a node follow each other without gap or
+    /// overlap from the start until it has finished; empty spans are left out.
     fn activity(&mut self, rank: Rank, activity: Activity, from: Time, to: Time);
 
-    /// A message goes onto the network.
+    /// A message enters the network.
     fn sent(&mut self, now: Time, message: Sent<'_, M>);
 
-    /// The message of this number has come to the node of rank `to`; by its way other messages held
-    /// it up.
+    /// Message `number` has arrived at the node of rank `to`; `stalls` are its waits for other messages
+    /// on the way.
     fn arrived(&mut self, now: Time, to: Rank, number: u64, stalls: &[Stall]);
 
-    /// A process takes the messages that came to it first of those that it has not read, so many.
+    /// A process reads the first `count` messages of its mailbox.
     fn read(&mut self, now: Time, rank: Rank, count: usize);
 }
 
-/// A message as it goes onto the network.
+/// A message that enters the network.
 #[derive(Clone, Copy, Debug)]
 pub struct Sent<'a, M> {
-    /// How many went before it.
+    /// How many messages entered the network before it.
     pub number: u64,
-    /// Who sends it.
+    /// The sender.
     pub from: Rank,
-    /// Who is to get it.
+    /// The receiver.
     pub to: Rank,
-    /// Its length.
+    /// Its length in bytes.
     pub bytes: u64,
-    /// Whether a coprocessor sends it, to which the processor has handed it over.
+    /// Whether a coprocessor sends it.
     pub handed_over: bool,
-    /// What it says.
+    /// Its contents.
     pub message: &'a M,
 }

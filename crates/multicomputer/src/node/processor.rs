@@ -1,4 +1,4 @@
-//! What a processor takes for counted operations.
+//! A processor: the time of counted operations.
 
 use std::collections::BTreeMap;
 
@@ -13,14 +13,14 @@ pub struct Processor {
     pub scale: f64,
     /// Cycles of each operation, by name.
     pub cycles: BTreeMap<String, f64>,
-    /// Its caches, the nearest first; none where the cycles hold what misses cost.
+    /// Its caches, the nearest first; none where the cycles include the cost of misses.
     pub caches: Vec<CacheLevel>,
-    /// The translations of addresses that it holds, as a cache of pages; none where all are known.
+    /// Its translation look-aside buffer, as a cache of pages; none where translations cost nothing.
     pub translations: Option<CacheLevel>,
 }
 
 impl Processor {
-    /// Seconds that an operation takes, cycles × scale / clock; `None` for one without a price.
+    /// Seconds that an operation takes, cycles × scale / clock; `None` for an unknown operation.
     pub fn price(&self, operation: &str) -> Option<f64> {
         self.cycles.get(operation).map(|cycles| cycles * self.scale / self.clock)
     }

@@ -1,4 +1,4 @@
-//! Start-up: all nodes read the same file at once through the I/O nodes, and make themselves ready.
+//! Start-up: all nodes read the same file at once through the I/O nodes, then initialise.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
@@ -8,25 +8,26 @@ use desim::{Duration, Time};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::file::MachineFault;
-use crate::file::without_repetition;
-use crate::file::{self, Bandwidth, Bytes, Cycles, Quantity, Sourced, whole_bytes};
+use crate::file::{
+    self, Bandwidth, Bytes, Cycles, MachineFault, Quantity, Sourced, whole_bytes,
+    without_repetition,
+};
 
-/// A disk's sector, bytes: shorter requests can only be a slip.
+/// A disk's sector, bytes: a shorter request must be a mistake.
 const SECTOR: u64 = 512;
 
-/// How nodes read their input. A file lies on all I/O nodes in turn, a request's length on each; every
-/// node reads it from its beginning, one request after the other, and every I/O node serves one request
-/// at a time, first come, first served, the lower rank first.
+/// How nodes read their input. A file is striped over all I/O nodes, in stripes of one request. Every
+/// node reads it from the beginning, one request after the other. Every I/O node serves one request at a
+/// time, first come, first served, the lower rank first.
 ///
-/// The way over the network is not counted, and an I/O node keeps nothing of what it has read.
+/// Transfers over the network are not counted, and I/O nodes cache nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StartUp {
     /// Nodes with disks, at least 1.
     pub io_nodes: usize,
     /// Bytes a second of the disks of one I/O node.
     pub bandwidth: f64,
-    /// Time of a request until its first byte comes.
+    /// Time of a request until its first byte is read.
     pub access_time: Duration,
     /// Bytes of one request, at least a sector.
     pub request: u64,
@@ -34,22 +35,22 @@ pub struct StartUp {
     pub cycles: BTreeMap<String, f64>,
 }
 
-/// How a node came to its input.
+/// How a node read its input.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Reading {
-    /// When it had read all.
+    /// When it had read everything.
     pub done: Time,
-    /// How long its requests waited for others at I/O nodes.
+    /// How long its requests waited at I/O nodes for requests of others.
     pub waited: Duration,
 }
 
 impl StartUp {
-    /// Time in which an I/O node serves a request of so many bytes.
+    /// Time in which an I/O node serves a request of `bytes`.
     pub fn service(&self, bytes: u64) -> Duration {
         self.access_time + Duration::from_seconds_f64(bytes as f64 / self.bandwidth)
     }
 
-    /// All of `nodes` read a file of so many bytes, from time zero on; by rank.
+    /// Lets `nodes` nodes read a file of `bytes` from time zero on. Returns one entry a rank.
     pub fn read(&self, nodes: usize, bytes: u64) -> Vec<Reading> {
         let requests = bytes.div_ceil(self.request);
         let mut readings = vec![Reading::default(); nodes];
@@ -73,19 +74,19 @@ impl StartUp {
     }
 }
 
-/// Start-up, as a machine file has it.
+/// Start-up in a machine file.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object that describes the start-up")]
 pub(crate) struct StartUpFile {
-    /// Nodes with disks, over which files are spread.
+    /// Nodes with disks, over which files are striped.
     io_nodes: Sourced<NonZeroU16>,
     /// Bytes a second of the disks of one I/O node.
     bandwidth: Sourced<Quantity<Bandwidth>>,
-    /// Time of a request until its first byte comes.
+    /// Time of a request until its first byte is read.
     access_time: Sourced<Quantity<file::Time>>,
-    /// What a node asks for at a time, and what lies on one I/O node before the next one follows.
+    /// Bytes of a request, and of a stripe on one I/O node.
     request: Sourced<Quantity<Bytes>>,
-    /// Cycles of each step in which a node makes itself ready.
+    /// Cycles of each step of a node's initialisation.
     #[serde(deserialize_with = "without_repetition")]
     operations: BTreeMap<String, Sourced<Quantity<Cycles>>>,
 }
