@@ -77,7 +77,7 @@ impl Live {
     pub fn feed(&self) -> Feed {
         let board = Arc::clone(&self.board);
         Arc::new(move |run, news| match news {
-            News::Part(part) => board.tell(run, part),
+            News::Part(part) => board.add(run, part),
             News::End => board.end(run),
         })
     }
