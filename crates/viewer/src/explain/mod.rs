@@ -10,12 +10,10 @@ mod critical_path;
 mod format;
 /// What is missing to a perfect speed-up, as a product of factors.
 mod loss;
-/// A table of the losses of runs on different numbers of processors.
-mod loss_table;
 /// Where the time of each node went.
 mod time_breakdown;
 
 pub(crate) use analysed_run::AnalysedRun;
 pub(crate) use answers::answers;
 pub(crate) use critical_path::PathSegment;
-pub(crate) use loss_table::loss_table;
+pub(crate) use loss::loss_table;

@@ -1,8 +1,6 @@
 //! The blocks of data of a report, and the index by which the page finds them.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread::{self, ScopedJoinHandle};
 
 use serde_json::{Value, json};
 use virtwall::Problem;
@@ -110,25 +108,12 @@ impl<'a> Blocks<'a> {
 
     /// All blocks as elements of the page, made on `threads` threads, at least 1.
     pub fn pack(&self, threads: usize) -> String {
-        let element = |(name, block): &(String, Block)| {
+        let element = |number: usize| {
+            let (name, block) = &self.blocks[number];
             let packed = block().pack();
             format!("<script type=\"application/octet-stream\" id=\"{name}\">{packed}</script>\n")
         };
-        let next = AtomicUsize::new(0);
-        let work = || {
-            let numbers = std::iter::repeat_with(|| next.fetch_add(1, Ordering::Relaxed));
-            let packed = numbers.map_while(|n| Some((n, element(self.blocks.get(n)?))));
-            packed.collect::<Vec<(usize, String)>>()
-        };
-        let mut elements: Vec<(usize, String)> = thread::scope(|scope| {
-            let workers: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
-            let join = |worker: ScopedJoinHandle<Vec<_>>| {
-                worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
-            };
-            workers.into_iter().flat_map(join).collect()
-        });
-        elements.sort_unstable_by_key(|&(number, _)| number);
-        elements.into_iter().map(|(_, text)| text).collect()
+        parallel::map(self.blocks.len(), threads, element).concat()
     }
 }
 

@@ -1,4 +1,4 @@
-//! `virtwall machine show`: what a machine is, how each number is known, and a drawing of it.
+//! `virtwall machine show`: a machine's numbers with their provenance, and a drawing of it.
 
 use std::fmt::Write as _;
 
@@ -20,18 +20,18 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let open = OpenMachine::load(&arguments.machine)?;
     let value: Value = serde_json::from_str(&open.text).map_err(Exit::failure)?;
-    let rung = open.machine.network_model.map_or("auto", |rung| rung.name());
+    let model = open.machine.network_model.map_or("auto", |model| model.name());
     let mut text = format!("{}\n{}\n\n", open.machine.title, drawing(&open.machine));
-    let _ = writeln!(text, "Network model: {rung}. Numbers, from {}:\n", open.label);
+    let _ = writeln!(text, "Network model: {model}. Numbers, from {}:\n", open.label);
     numbers(&mut text, "", &value);
     Ok(text)
 }
 
-/// All numbers under a value of the file, each with its provenance and its source, and the words that
-/// choose between models.
+/// All numbers under a value of the file, each with its provenance and its source, and the names of
+/// models.
 fn numbers(text: &mut String, place: &str, value: &Value) {
     let Value::Object(fields) = value else {
-        // The words of the file itself are its title, and what it is made of.
+        // Texts at the top level are the title and such.
         if let Some(word) = value.as_str().filter(|_| place.contains('.')) {
             let _ = writeln!(text, "{place} = {word}");
         }
@@ -51,10 +51,10 @@ fn numbers(text: &mut String, place: &str, value: &Value) {
     }
 }
 
-/// Most places of a row that are drawn: of longer ones half as many at either end.
+/// The most places of a row that are drawn; of longer rows both ends.
 const WIDEST: usize = 20;
 
-/// The places row by row: compute nodes by number, service nodes as s, empty ones as points.
+/// The places row by row: compute nodes by number, service nodes as s, empty places as points.
 fn drawing(machine: &Machine) -> String {
     let (compute, nodes) = (machine.compute_nodes(), machine.nodes());
     let topology = machine.topology();
@@ -86,7 +86,7 @@ fn drawing(machine: &Machine) -> String {
     what + &rows.collect::<String>()
 }
 
-/// A row of places, and what joins them.
+/// A row of places with their links.
 fn row_of(places: &[String], shape: Shape) -> String {
     let hub = |sign: &str| {
         let row = places.join("   ");

@@ -1,20 +1,22 @@
-//! `virtwall machine bench`: what a user of a machine would measure of its network first.
+//! `virtwall machine bench`: ping-pong, exchange and hot spot on a machine's network, by message size.
 
 use std::fmt::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use desim::Time;
 use lab::{OpenMachine, Plot, Table};
 use multicomputer::{KernelError, Machine, Network, NetworkModel, exchange, hot_spot, ping_pong};
 
+use super::network::NetworkArgument;
 use crate::exit::Exit;
+use crate::files::{make_folder, write};
 
 /// Bytes of the messages.
 const SIZES: [u64; 10] = [8, 32, 128, 512, 2_048, 4_096, 16_384, 65_536, 262_144, 1_048_576];
-/// The longest of them that are sent flit by flit: megabytes would take hours.
+/// The longest of them on the flit model, where megabytes would take hours.
 const LONGEST_OF_FLITS: u64 = 4_096;
-/// Messages a way, and rounds.
+/// Messages each way, and rounds.
 const ROUNDS: u32 = 10;
 
 /// Which machine.
@@ -22,9 +24,8 @@ const ROUNDS: u32 = 10;
 pub struct Arguments {
     /// Name of a machine, or path to a machine file
     machine: String,
-    /// Model of the network: ideal, loggp, wormhole or flit [default: the machine file's]
-    #[arg(long, value_name = "MODEL")]
-    network: Option<NetworkModel>,
+    #[command(flatten)]
+    network: NetworkArgument,
     /// Write the table (bench.csv) and its plots to this folder
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -33,12 +34,12 @@ pub struct Arguments {
 /// Measures; returns the table.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let machine = OpenMachine::load(&arguments.machine)?.machine;
-    let rung = arguments.network.or(machine.network_model).unwrap_or(NetworkModel::LogGp);
-    machine.network_on(rung).map_err(Exit::bad_input)?;
-    let most = if rung == NetworkModel::Flit { LONGEST_OF_FLITS } else { u64::MAX };
+    let model = arguments.network.model(&machine);
+    machine.network_on(model).map_err(Exit::bad_input)?;
+    let most = if model == NetworkModel::Flit { LONGEST_OF_FLITS } else { u64::MAX };
     let sizes = SIZES.into_iter().filter(|&bytes| bytes <= most);
     let rows = sizes
-        .map(|bytes| row(&machine, rung, bytes))
+        .map(|bytes| row(&machine, model, bytes))
         .collect::<Result<Vec<_>, _>>()
         .map_err(Exit::failure)?;
     let columns = [
@@ -51,17 +52,15 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         "hot_spot_microseconds",
     ];
     let table = Table { columns: columns.map(str::to_owned).to_vec(), rows };
-    let text = text(&machine, rung, &table);
+    let text = text(&machine, model, &table);
     let Some(out) = &arguments.out else { return Ok(text) };
-    draw(&table, out).map_err(|error| {
-        Exit::bad_input(format!("{}: no folder for results: {error}", out.display()))
-    })?;
+    draw(&table, out)?;
     Ok(format!("{text}\nTable and plots are in {}.\n", out.display()))
 }
 
-/// Ping-pong of neighbours, exchange of all, and all to one, with messages of so many bytes.
-fn row(machine: &Machine, rung: NetworkModel, bytes: u64) -> Result<Vec<String>, KernelError> {
-    let network = || -> Result<Box<dyn Network>, KernelError> { Ok(machine.network_on(rung)?) };
+/// Ping-pong of neighbours, exchange of all nodes, and all to one, with messages of this size.
+fn row(machine: &Machine, model: NetworkModel, bytes: u64) -> Result<Vec<String>, KernelError> {
+    let network = || -> Result<Box<dyn Network>, KernelError> { Ok(machine.network_on(model)?) };
     let ranks = machine.compute_nodes();
     let partner = 1.min(ranks - 1);
     let there_and_back = ping_pong(machine, network()?, (0, partner), bytes, ROUNDS)?;
@@ -89,9 +88,9 @@ fn row(machine: &Machine, rung: NetworkModel, bytes: u64) -> Result<Vec<String>,
     ])
 }
 
-fn text(machine: &Machine, rung: NetworkModel, table: &Table) -> String {
-    let mut text = format!("{}, network {rung}\n\n", machine.title);
-    text += "    bytes   one way us       MB/s  exchange us  hot spot us a message\n";
+fn text(machine: &Machine, model: NetworkModel, table: &Table) -> String {
+    let mut text = format!("{}, network {model}\n\n", machine.title);
+    text += "    bytes   one way us       MB/s  exchange us    hot spot us/message\n";
     for row in &table.rows {
         let [bytes, one_way, _, bandwidth, _, exchange, hot_spot] = &row[..] else { continue };
         let _ =
@@ -107,14 +106,14 @@ fn text(machine: &Machine, rung: NetworkModel, table: &Table) -> String {
     text
 }
 
-fn draw(table: &Table, out: &std::path::Path) -> std::io::Result<()> {
-    std::fs::create_dir_all(out)?;
-    lab::write_file(&out.join("bench.csv"), &table.to_csv()?)?;
+fn draw(table: &Table, out: &Path) -> Result<(), Exit> {
+    make_folder(out, "results")?;
+    write(&out.join("bench.csv"), table.to_csv().map_err(Exit::failure)?)?;
     for (y, title) in [
         ("microseconds_one_way", "Time of a message between neighbours"),
         ("megabytes_a_second", "Bandwidth between neighbours"),
         ("exchange_microseconds", "Exchange of every node with four neighbours"),
-        ("hot_spot_microseconds", "All nodes to one: time a message"),
+        ("hot_spot_microseconds", "All nodes to one: time per message"),
     ] {
         let plot = Plot {
             x: "bytes".to_owned(),
@@ -129,10 +128,7 @@ fn draw(table: &Table, out: &std::path::Path) -> std::io::Result<()> {
             power_law: false,
             file: None,
         };
-        lab::write_file(
-            &out.join(format!("{}.svg", plot.stem())),
-            lab::svg(table, &plot).as_bytes(),
-        )?;
+        write(&out.join(format!("{}.svg", plot.stem())), lab::svg(table, &plot))?;
     }
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! `virtwall machine compare`: the wormhole model of a machine's network held against flits.
+//! `virtwall machine compare`: the wormhole model of a machine's network compared with the flit model.
 
 use std::fmt::Write as _;
 
@@ -12,11 +12,11 @@ use multicomputer::{
 
 use crate::exit::Exit;
 
-/// Loads, in parts of the fluid bound.
+/// Loads, as shares of the fluid bound: what the busiest channel can carry.
 const LOADS: [f64; 8] = [0.02, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 0.9];
-/// A network is saturated where messages take so many times as long as when it is empty.
+/// A network is saturated where latency exceeds that of the lightest load by this factor.
 const SATURATED: f64 = 3.0;
-/// How near the two are expected to be below saturation.
+/// Expected agreement of the two below saturation.
 const NEAR: f64 = 0.15;
 
 /// Which network, under which load.
@@ -24,13 +24,13 @@ const NEAR: f64 = 0.15;
 pub struct Arguments {
     /// Name of a machine, or path to a machine file
     machine: String,
-    /// Bytes a message
+    /// Bytes per message
     #[arg(long, value_name = "N", default_value_t = 4_096, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     bytes: u64,
-    /// Messages of each node, in the mean
+    /// Mean number of messages per node
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u64).range(4..=10_000))]
     messages: u64,
-    /// Count the message layer in, which hides what the network does; else it costs nothing
+    /// Include the cost of the message layer, which hides differences between networks
     #[arg(long)]
     software: bool,
     /// Seed of the random traffic
@@ -38,55 +38,55 @@ pub struct Arguments {
     seed: u64,
 }
 
-/// Compares; returns a table, and how near the two models are.
+/// Compares; returns a table and the largest difference.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let machine = OpenMachine::load(&arguments.machine)?.machine;
     machine.network_on(NetworkModel::Flit).map_err(Exit::bad_input)?;
     let mut text = format!("{}, messages of {} B\n", machine.title, arguments.bytes);
     text += "pattern        load  messages   wormhole us       flit us  difference\n";
-    let mut farthest = (0.0_f64, String::new());
+    let mut largest = (0.0_f64, String::new());
     for pattern in Pattern::ALL {
         let mut empty = None;
         for load in LOADS {
-            let [worms, flits] = measure(&machine, arguments, pattern, load)?;
+            let [wormhole, flit] = measure(&machine, arguments, pattern, load)?;
             let name = pattern.name();
-            if worms.messages == 0 {
+            if wormhole.messages == 0 {
                 let _ = writeln!(text, "{name:<12}{:>6.0} %  no node has a partner", load * 100.0);
                 break;
             }
-            let difference = worms.latency / flits.latency - 1.0;
-            let saturated = flits.latency > SATURATED * *empty.get_or_insert(flits.latency);
+            let difference = wormhole.latency / flit.latency - 1.0;
+            let saturated = flit.latency > SATURATED * *empty.get_or_insert(flit.latency);
             let _ = writeln!(
                 text,
                 "{name:<12}{:>5.0} %{:>10}{:>14.2}{:>14.2}{:>10.1} %{}",
                 load * 100.0,
-                worms.messages,
-                worms.latency * 1e6,
-                flits.latency * 1e6,
+                wormhole.messages,
+                wormhole.latency * 1e6,
+                flit.latency * 1e6,
                 difference * 100.0,
                 if saturated { "  saturated" } else { "" }
             );
             if saturated {
                 break;
             }
-            if difference.abs() > farthest.0.abs() {
-                farthest = (difference, format!("{name} at {:.0} %", load * 100.0));
+            if difference.abs() > largest.0.abs() {
+                largest = (difference, format!("{name} at {:.0} %", load * 100.0));
             }
         }
     }
-    let (difference, place) = farthest;
+    let (difference, place) = largest;
     let verdict = if difference.abs() <= NEAR { "within" } else { "NOT within" };
     let percent = difference * 100.0;
     let _ = writeln!(
         text,
-        "\nLoads are parts of what the busiest channel could carry. Below saturation mean latencies \
+        "\nLoads are shares of what the busiest channel can carry. Below saturation mean latencies \
          differ by {percent:.1} % at most ({place}): {verdict} {:.0} %.",
         NEAR * 100.0
     );
     Ok(text)
 }
 
-/// The same traffic over both rungs.
+/// Sends the same traffic over both models.
 fn measure(
     machine: &Machine,
     arguments: &Arguments,
@@ -109,10 +109,11 @@ fn measure(
     let trace = load.trace(topology, nodes);
     let on = |rung| {
         let mut network = parameters.build(rung, topology).ok_or("no such network")?;
-        let courses =
+        let replayed =
             replay(&trace, network.as_mut(), topology).map_err(|error| error.to_string())?;
-        Ok::<_, String>(Measured::of(&load, &trace, &courses))
+        Ok::<_, String>(Measured::of(&load, &trace, &replayed))
     };
-    let both = on(NetworkModel::Wormhole).and_then(|worms| Ok([worms, on(NetworkModel::Flit)?]));
+    let both =
+        on(NetworkModel::Wormhole).and_then(|wormhole| Ok([wormhole, on(NetworkModel::Flit)?]));
     both.map_err(Exit::failure)
 }

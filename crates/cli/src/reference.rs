@@ -1,4 +1,4 @@
-//! `virtwall reference`: a scene solved as exactly as can be, and stored.
+//! `virtwall reference`: computes a reference solution of a scene, with its error, and stores it.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,52 +10,53 @@ use reference::{Dense, Method, Patches, Paths, Problem, Received, Reference, Sub
 use serde::{Deserialize, Serialize};
 
 use crate::exit::Exit;
+use crate::files::{make_folder, write};
 use crate::steps::Steps;
+use crate::threads::Threads;
 
-/// Which scene, and how.
+/// Of which scene, and how.
 #[derive(Args)]
 pub struct Arguments {
     /// Name of a scene, or path to a scene description (.json) or an OBJ file
     scene: String,
-    /// How to solve it [default: dense up to 1,000 patches, paths beyond]
+    /// Method [default: dense up to 1,000 patches, else paths]
     #[arg(long, value_enum)]
     method: Option<MethodArgument>,
-    /// What the errors of a patch's form factors may add up to, if dense
+    /// Error tolerance of the sum of a patch's form factors, for the dense method
     #[arg(long, value_name = "ERROR", default_value = "1e-4", value_parser = crate::formfactors::tolerance)]
     tolerance: f64,
-    /// Which problem paths solve
+    /// Problem that paths solve
     #[arg(long, value_enum, default_value = "patches")]
     problem: ProblemArgument,
-    /// Paths from the lights, in round numbers
+    /// Approximate number of paths from the lights
     #[arg(long, value_name = "N", default_value_t = 1 << 22, value_parser = clap::value_parser!(u64).range(1..=1 << 36))]
     paths: u64,
     /// Seed of the paths
     #[arg(long, value_name = "N", default_value_t = 1996)]
     seed: u64,
-    /// Where to store it [default: results/references/<name of the scene>.<format>]
+    /// File to write [default: results/references/<name of the scene>.<format>]
     #[arg(long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// How to store it: JSON holds all, CSV a line for each patch
+    /// File format: JSON with all data, or CSV with a line per patch
     #[arg(long, value_enum, default_value = "json")]
     format: Format,
-    /// Threads [default: one for each of this host's processors]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
+    #[command(flatten)]
+    threads: Threads,
 }
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum MethodArgument {
-    /// Form factors by adaptive quadrature with exact shadows, all patches with all
+    /// Form factors between all patches, by adaptive quadrature with exact shadows
     Dense,
-    /// Light followed from the lights, ray by ray; goes on where it was interrupted
+    /// Paths of light from the lights; an interrupted computation is resumed
     Paths,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
 enum ProblemArgument {
-    /// Each patch sends out light evenly: radiosity on this mesh, as the dense method
+    /// Each patch has one radiosity: the radiosity system on this mesh, as in the dense method
     Patches,
-    /// Light goes on from where it falls; the mesh is only what it is averaged over
+    /// Light is reflected from where it falls; the mesh only serves to average it
     Continuum,
 }
 
@@ -65,11 +66,11 @@ enum Format {
     Csv,
 }
 
-/// Beyond so many patches paths are the better way.
+/// The most patches for which the dense method is the default.
 const DENSE: usize = 1_000;
-/// Beyond so many the matrices do not fit an ordinary host.
+/// The most patches whose matrices fit an ordinary host.
 const MOST_DENSE: usize = 10_000;
-/// Rounds of paths: enough to tell their standard error to a tenth.
+/// Rounds of paths: enough to know their standard error within 10 %.
 const ROUNDS: u32 = 64;
 
 /// A scene meshed as one environment.
@@ -80,21 +81,21 @@ struct Meshed {
     threads: usize,
 }
 
-/// Paths under way: saved after some rounds, so that a run that is killed loses no more than those.
+/// Partial results of paths, saved after some rounds, so that a killed computation loses only those.
 #[derive(Serialize, Deserialize)]
 struct Partial {
     subject: Subject,
     received: Received,
 }
 
-/// Solves and stores; returns what was done.
+/// Computes and stores; returns what was done.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let open = OpenScene::load(&arguments.scene)?.without_media()?;
     let size = PatchSize { reflector: open.patch_size, emitter: open.emitter_patch_size };
     let space = Space::new(open.scene, open.cells);
     let environment = LocalEnvironment::new(&space, space.grid.whole(), size);
     let patches = Patches::new(&space, &environment);
-    let threads = arguments.threads.map_or_else(parallel::host_threads, usize::from);
+    let threads = arguments.threads.count();
     let (method, problem) = chosen(arguments, patches.count())?;
     let stem = Path::new(&arguments.scene).file_stem().unwrap_or_default().to_string_lossy();
     let subject = Subject {
@@ -106,7 +107,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         problem,
         method,
     };
-    let output = place(arguments, &subject.scene)?;
+    let output = output_file(arguments, &subject.scene)?;
     let mut partial = output.as_os_str().to_owned();
     partial.push(".partial");
     let partial = PathBuf::from(partial);
@@ -119,14 +120,14 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         Format::Json => serde_json::to_string(&found).map_err(Exit::failure)? + "\n",
         Format::Csv => meshed.csv(&found),
     };
-    lab::write_file(&output, text.as_bytes()).map_err(Exit::bad_input)?;
-    // What is stored whole is no longer needed in part.
+    write(&output, text)?;
+    // The partial results are no longer needed.
     let _ = fs::remove_file(&partial);
     let (count, error) = (found.radiosity.len(), 100.0 * found.relative_l2_error);
     Ok(format!("{}: {count} patches, relative L2 error {error:.2e} %\n", output.display()))
 }
 
-/// The method for so many patches, and the problem that it solves.
+/// The method for this number of patches, and the problem that it solves.
 fn chosen(arguments: &Arguments, patches: usize) -> Result<(Method, Problem), Exit> {
     let smaller = if patches <= DENSE { MethodArgument::Dense } else { MethodArgument::Paths };
     let continuum = matches!(arguments.problem, ProblemArgument::Continuum);
@@ -152,14 +153,13 @@ fn chosen(arguments: &Arguments, patches: usize) -> Result<(Method, Problem), Ex
     Ok((Method::Dense { tolerance: arguments.tolerance }, Problem::Patches))
 }
 
-/// Where the reference goes; makes its folder.
-fn place(arguments: &Arguments, scene: &str) -> Result<PathBuf, Exit> {
+/// The file to write; makes the default folder.
+fn output_file(arguments: &Arguments, scene: &str) -> Result<PathBuf, Exit> {
     if let Some(output) = &arguments.output {
         return Ok(output.clone());
     }
     let folder = Path::new("results/references");
-    fs::create_dir_all(folder)
-        .map_err(|error| Exit::bad_input(format!("{}: no folder: {error}", folder.display())))?;
+    make_folder(folder, "references")?;
     let ending = match arguments.format {
         Format::Json => "json",
         Format::Csv => "csv",
@@ -193,14 +193,14 @@ impl Meshed {
                 partial.received.add(&received);
             }
             let text = serde_json::to_string(&partial).map_err(Exit::failure)?;
-            lab::write_file(saved, text.as_bytes()).map_err(Exit::bad_input)?;
+            write(saved, text)?;
         }
         steps.end();
         let solution = paths.solution(&partial.received);
         Ok(Reference::new(partial.subject, patches, &solution))
     }
 
-    /// What an interrupted run of the same subject has left, if anything.
+    /// The partial results of an interrupted computation of the same subject, or none.
     fn resumed(&self, saved: &Path, subject: Subject) -> Partial {
         let patches = self.patches.count();
         let text = fs::read_to_string(saved).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! `virtwall machine replay`: a user's traffic, sent over a machine's network.
+//! `virtwall machine replay`: sends the messages of a trace file over a machine's network.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -6,63 +6,64 @@ use std::path::PathBuf;
 use clap::Args;
 use desim::Time;
 use lab::OpenMachine;
-use multicomputer::{ChannelUse, Machine, Network, NetworkModel, ReplayedMessage, Trace, replay};
+use multicomputer::{ChannelUse, Machine, Network, ReplayedMessage, Trace, replay};
 
+use super::network::NetworkArgument;
 use crate::exit::Exit;
+use crate::files::write;
 
-/// Which traffic, and over what.
+/// Which messages, and over which network.
 #[derive(Args)]
 pub struct Arguments {
-    /// The traffic: a JSON list of {"id", "at", "from", "to", "bytes", "after"}
+    /// The messages: a JSON list of {"id", "at", "from", "to", "bytes", "after"}
     trace: PathBuf,
     /// Name of a machine, or path to a machine file
     #[arg(long, value_name = "NAME", default_value = "paragon-xps")]
     machine: String,
-    /// Model of the network: ideal, loggp, wormhole or flit [default: the machine file's]
-    #[arg(long, value_name = "MODEL")]
-    network: Option<NetworkModel>,
-    /// Write the table to this CSV file, not to standard output
+    #[command(flatten)]
+    network: NetworkArgument,
+    /// Write the table to this CSV file instead of printing it
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Write what each channel of the network did to this CSV file
+    /// Write the use of each channel of the network to this CSV file
     #[arg(long, value_name = "FILE")]
     channels: Option<PathBuf>,
 }
 
-/// Sends the traffic; returns the course of every message as CSV.
+/// Sends the messages; returns when and how each of them arrived, as CSV.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let machine = OpenMachine::load(&arguments.machine)?.machine;
     let file = arguments.trace.display().to_string();
     let text = lab::read_text(&arguments.trace)?;
     let trace = Trace::from_json(&text, &file, machine.nodes()).map_err(Exit::bad_input)?;
-    let rung = arguments.network.or(machine.network_model).unwrap_or(NetworkModel::LogGp);
-    let mut network = machine.network_on(rung).map_err(Exit::bad_input)?;
-    let courses = replay(&trace, network.as_mut(), machine.topology()).map_err(Exit::failure)?;
+    let model = arguments.network.model(&machine);
+    let mut network = machine.network_on(model).map_err(Exit::bad_input)?;
+    let replayed = replay(&trace, network.as_mut(), machine.topology()).map_err(Exit::failure)?;
     if let Some(path) = &arguments.channels {
-        let end = courses.iter().map(|course| course.arrived).max().unwrap_or_default();
+        let end = replayed.iter().map(|message| message.arrived).max().unwrap_or_default();
         let table = channels(&machine, network.as_ref(), end);
-        lab::write_file(path, table.as_bytes()).map_err(Exit::bad_input)?;
+        write(path, table)?;
     }
-    let table = table(&trace, &courses);
+    let table = table(&trace, &replayed);
     let Some(path) = &arguments.out else { return Ok(table) };
-    lab::write_file(path, table.as_bytes()).map_err(Exit::bad_input)?;
-    Ok(format!("{} messages; their courses are in {}.\n", courses.len(), path.display()))
+    write(path, table)?;
+    Ok(format!("{} messages; the table is in {}.\n", replayed.len(), path.display()))
 }
 
-fn table(trace: &Trace, courses: &[ReplayedMessage]) -> String {
+fn table(trace: &Trace, replayed: &[ReplayedMessage]) -> String {
     let mut table = "id,from,to,bytes,sent_s,arrived_s,blocked_s,blocked_by\n".to_owned();
-    for (item, course) in trace.messages.iter().zip(courses) {
-        let (sent, arrived) = (seconds(course.sent.0), seconds(course.arrived.0));
-        let blocked = seconds(course.blocked().0);
-        let by = course.blockers().into_iter().map(|index| trace.messages[index].name.as_str());
+    for (message, replayed) in trace.messages.iter().zip(replayed) {
+        let (sent, arrived) = (seconds(replayed.sent.0), seconds(replayed.arrived.0));
+        let blocked = seconds(replayed.blocked().0);
+        let by = replayed.blockers().into_iter().map(|index| trace.messages[index].name.as_str());
         let by = by.collect::<Vec<_>>().join(" ");
-        let (name, from, to, bytes) = (&item.name, item.from, item.to, item.bytes);
+        let (name, from, to, bytes) = (&message.name, message.from, message.to, message.bytes);
         let _ = writeln!(table, "{name},{from},{to},{bytes},{sent},{arrived},{blocked},{by}");
     }
     table
 }
 
-/// What each channel did until `end`; nothing on networks that do not know channels.
+/// The use of each channel until `end`; empty on network models without channels.
 fn channels(machine: &Machine, network: &dyn Network, end: Time) -> String {
     let mut table = "channel,messages,carrying_s,held_s,utilisation\n".to_owned();
     for ChannelUse { channel, messages, carrying, held } in network.channel_use() {

@@ -1,4 +1,4 @@
-//! `virtwall scene show`: what a scene holds, in numbers and as a picture.
+//! `virtwall scene show`: what a scene contains, in numbers and as a picture.
 
 use std::path::PathBuf;
 
@@ -10,13 +10,14 @@ use radiosity::{
 };
 
 use crate::exit::Exit;
+use crate::files::write;
 use crate::steps::Steps;
 
-/// A picture needs no more light than this: a tenth of it may still be unshot.
+/// The share of the light that may be unshot in a picture.
 const UNSHOT: f64 = 0.1;
-/// And no more shots than this.
+/// The most shots for a picture.
 const MOST_SHOTS: u64 = 5_000;
-/// Rays a shot of a picture.
+/// Rays per shot for a picture.
 const PIXELS: u32 = 4_096;
 
 /// Which scene, and what to draw of it.
@@ -27,18 +28,18 @@ pub struct Arguments {
     /// Draw a picture to this PNG file
     #[arg(long, value_name = "OUT")]
     png: Option<PathBuf>,
-    /// Leave out of the picture what lies above this height, in metres
+    /// Leave out of the picture what is above this height, in metres
     #[arg(long, value_name = "Z", allow_hyphen_values = true)]
     cut_above: Option<f64>,
-    /// Show lights and materials, not solved [the default]
+    /// Show materials and lights without solving [default]
     #[arg(long, conflicts_with = "solved")]
     emitted: bool,
-    /// Show the light after a tenth of it is left to shoot
+    /// Show the solution with at most 10 % of the light unshot
     #[arg(long)]
     solved: bool,
 }
 
-/// Draws the picture, if asked to; returns the numbers.
+/// Draws the picture, if one is asked for; returns the numbers.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     if arguments.cut_above.is_some_and(|height| !height.is_finite()) {
         return Err(Exit::bad_input("--cut-above: not a height; expected metres, such as 2.5"));
@@ -49,12 +50,12 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     if let Some(path) = &arguments.png {
         let picture = picture(&open, &space, &whole, arguments).map_err(Exit::bad_input)?;
         let bytes = picture.encode_png().map_err(Exit::failure)?;
-        lab::write_file(path, &bytes).map_err(Exit::bad_input)?;
+        write(path, &bytes)?;
     }
     Ok(text)
 }
 
-/// The scene in its grid, unsplit: meshed as one environment.
+/// The scene in its grid, meshed as one environment.
 fn meshed(open: &OpenScene) -> (Space, LocalEnvironment) {
     let space = Space::new(open.scene.clone(), open.cells);
     let size = PatchSize { reflector: open.patch_size, emitter: open.emitter_patch_size };

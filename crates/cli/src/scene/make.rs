@@ -1,4 +1,4 @@
-//! `virtwall scene make`: the scenes of RR-3008, section 5.1, and small ones.
+//! `virtwall scene make`: writes the scenes of RR-3008, section 5.1, and small ones.
 
 use std::path::PathBuf;
 
@@ -6,19 +6,20 @@ use clap::Args;
 use scenemaker::{MOST_TABLES, SceneKind, SceneText};
 
 use crate::exit::Exit;
+use crate::files::make_folder;
 
 /// What to make.
 #[derive(Args)]
 pub struct Arguments {
-    /// office, rooms or building of the paper; room4, corridor, hole or cornell, small ones
+    /// office, rooms or building (the paper's), room4, corridor, hole or cornell (small ones)
     kind: SceneKind,
-    /// Floors of the building, instead of its five; its files are then called building-N
+    /// Floors of the building [default: 5]; its files are then called building-N
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(2..=1000))]
     floors: Option<u16>,
-    /// Seed of what is drawn at random
+    /// Seed of random choices
     #[arg(long, value_name = "N", default_value_t = 1996)]
     seed: u64,
-    /// Tables in each of the rooms, of which the paper has four
+    /// Tables in each of the rooms [default: 4]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(..=i64::from(MOST_TABLES)))]
     tables: Option<u32>,
     /// Folder for the OBJ and MTL files
@@ -26,11 +27,10 @@ pub struct Arguments {
     out: PathBuf,
 }
 
-/// Writes the files; returns their names.
+/// Writes the files; returns their paths.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let out = &arguments.out;
-    std::fs::create_dir_all(out)
-        .map_err(|error| Exit::bad_input(format!("{}: no folder: {error}", out.display())))?;
+    make_folder(out, "scenes")?;
     let text = text(arguments)?;
     let mut output = String::new();
     for (ending, contents) in [("obj", &text.obj), ("mtl", &text.mtl)] {
