@@ -1,5 +1,5 @@
-//! `virtwall bench rays`: how many rays a second the kernel casts, on any OBJ, so that anyone can hold
-//! it against another tracer on the same file.
+//! `virtwall bench rays`: how many rays per second the kernel casts in a scene, to compare with other ray
+//! tracers on the same file.
 
 use std::path::PathBuf;
 
@@ -9,27 +9,27 @@ use radiosity::{Operation, Work};
 
 use crate::exit::Exit;
 
-/// What to cast.
+/// Which rays to cast.
 #[derive(Args)]
 pub struct Arguments {
-    /// An OBJ file, or the name or description of a scene.
+    /// Name of a scene, or path to a scene description (.json) or an OBJ file
     scene: PathBuf,
-    /// Sources: random points of random faces.
+    /// Number of sources: random points on random faces
     #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     sources: u32,
-    /// Cosine-weighted rays from each source.
+    /// Cosine-weighted rays from each source
     #[arg(long, value_name = "N", default_value_t = 30_976, value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
     rays: u32,
-    /// Threads.
+    /// Threads
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1024))]
     threads: u32,
-    /// Seed of the random points.
+    /// Seed of the random points
     #[arg(long, value_name = "N", default_value_t = 1996)]
     seed: u64,
-    /// Cast a ray at a time, polygon by polygon: the oracle of the fast path.
+    /// Cast rays one by one with the simple kernel, the oracle of the fast one
     #[arg(long)]
     plain: bool,
-    /// How to print what was measured.
+    /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
 }
@@ -40,8 +40,8 @@ enum Format {
     Json,
 }
 
-/// Casts, and returns what was measured. Setting a source up and counting what the virtual processor
-/// does are part of the time; reading the file and sorting it into its grid are not.
+/// Casts, and returns what was measured. The time includes preparing each source and counting operations
+/// for the virtual processor; it does not include reading the file and building the grid.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let open = OpenScene::load(&arguments.scene.to_string_lossy())?;
     let bench = RayBench::new(open, arguments.sources, arguments.rays, arguments.seed)
@@ -57,7 +57,7 @@ fn report(arguments: &Arguments, polygons: usize, work: &Work, seconds: f64) -> 
     let rate = rays as f64 / seconds;
     match arguments.format {
         Format::Text => format!(
-            "{rays} rays at {polygons} polygons in {seconds:.3} s: {:.1} million a second; {hits} hits, {} misses\n",
+            "{rays} rays at {polygons} polygons in {seconds:.3} s: {:.1} million per second; {hits} hits, {} misses\n",
             rate / 1e6,
             rays - hits
         ),

@@ -1,4 +1,4 @@
-//! `virtwall check`: files, validated.
+//! `virtwall check`: validates files.
 
 use std::path::{Path, PathBuf};
 
@@ -7,10 +7,10 @@ use lab::Fault;
 
 use crate::exit::Exit;
 
-/// What to validate.
+/// Which files to validate.
 #[derive(Args)]
 pub struct Arguments {
-    /// Experiment, machine, trace, scene or OBJ files, or stability cases
+    /// Experiments, machines, traces, scenes, OBJ files or stability cases
     #[arg(required = true)]
     files: Vec<PathBuf>,
 }
@@ -31,7 +31,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     Err(Exit { code: 2, output, message: faults.join("\nerror: ") })
 }
 
-/// What a file is.
+/// Validates a file; returns what it is.
 fn check(file: &Path) -> Result<String, Fault> {
     if stability::is_case(file) { stability::check(file) } else { lab::check(file) }
 }

@@ -1,22 +1,22 @@
-//! How a command ends, and what it says.
+//! Exit codes, and what is printed where.
 
 use std::error::Error;
 use std::io::{self, Write};
 
 use lab::Fault;
 
-/// A command that did not do what it was asked.
+/// How a command failed.
 pub struct Exit {
     /// The process's exit code.
     pub code: u8,
-    /// What goes to standard output nevertheless.
+    /// What is printed to standard output all the same.
     pub output: String,
     /// What went wrong.
     pub message: String,
 }
 
 impl Exit {
-    /// Something failed that the input is not to blame for.
+    /// A failure that is not the input's fault.
     pub fn failure(message: impl Into<Box<dyn Error>>) -> Exit {
         Exit { code: 1, output: String::new(), message: message.into().to_string() }
     }
@@ -33,18 +33,18 @@ impl From<Fault> for Exit {
     }
 }
 
-/// Prints to standard output. A reader that has gone, as `head` does, is no reason to complain.
-pub fn say(text: &str) {
+/// Prints to standard output. That the reader has closed it, as `head` does, is no error.
+pub fn print(text: &str) {
     let mut output = io::stdout().lock();
     let _ = output.write_all(text.as_bytes()).and_then(|()| output.flush());
 }
 
 /// Prints a line to standard error.
-pub fn note(line: &str) {
+pub fn print_note(line: &str) {
     let _ = writeln!(io::stderr().lock(), "{line}");
 }
 
-/// Prints what went wrong to standard error.
-pub fn complain(message: &str) {
-    note(&format!("error: {message}"));
+/// Prints an error message to standard error.
+pub fn print_error(message: &str) {
+    print_note(&format!("error: {message}"));
 }

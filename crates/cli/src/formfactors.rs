@@ -1,4 +1,4 @@
-//! `virtwall formfactors`: form factors between the objects of any OBJ.
+//! `virtwall formfactors`: computes form factors between the objects of a scene.
 
 use std::path::PathBuf;
 
@@ -9,42 +9,44 @@ use reference::{Estimate, ObjectRays, Objects};
 use serde_json::json;
 
 use crate::exit::Exit;
+use crate::files::write;
 use crate::steps::Steps;
+use crate::threads::Threads;
 
-/// Between what, and how exactly.
+/// Of which scene, and how exactly.
 #[derive(Args)]
 pub struct Arguments {
-    /// An OBJ file, or the name or description of a scene; an object is the union of its faces
+    /// Name of a scene, or path to a scene description (.json) or an OBJ file; an object is the union
+    /// of its faces
     scene: String,
-    /// How to find them
+    /// Method
     #[arg(long, value_enum, default_value = "exact")]
     method: Method,
-    /// Greatest error of an exact form factor; an error estimate says where it was not reached
+    /// Error tolerance of exact form factors; error estimates show where it was missed
     #[arg(long, value_name = "ERROR", default_value = "1e-6", value_parser = tolerance)]
     tolerance: f64,
-    /// Rays from each object, in round numbers
+    /// Approximate number of rays from each object
     #[arg(long, value_name = "N", default_value_t = 1 << 20, value_parser = clap::value_parser!(u64).range(1..=1 << 40))]
     rays: u64,
-    /// Seed of the points that the rays start from
+    /// Seed of the rays' starting points
     #[arg(long, value_name = "N", default_value_t = 1996)]
     seed: u64,
-    /// How to write them
+    /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
-    /// Write them to this file instead of printing them
+    /// Write to this file instead of printing
     #[arg(long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Threads [default: one for each of this host's processors]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
+    #[command(flatten)]
+    threads: Threads,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
 enum Method {
-    /// Rays of the kernel from points all over each object; the error is a standard error
+    /// The kernel's rays from points all over each object; the error is a standard error
     Rays,
-    /// Adaptive quadrature of Lambert's contour integral, with exact shadows; the error is a bound in
-    /// practice
+    /// Adaptive quadrature of Lambert's contour integral with exact shadows; the error is in practice
+    /// a bound
     Exact,
 }
 
@@ -55,27 +57,27 @@ enum Format {
     Text,
 }
 
-/// A tolerance that arithmetic can reach.
+/// Parses a tolerance that arithmetic can reach.
 pub fn tolerance(text: &str) -> Result<f64, String> {
     let value = text.parse().ok().filter(|value| (1e-12..=0.1).contains(value));
     value.ok_or_else(|| "expected a number from 1e-12 to 0.1".to_owned())
 }
 
-/// Finds and writes them; returns what is to be printed.
+/// Computes form factors; returns what to print.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let open = OpenScene::load(&arguments.scene)?.without_media()?;
-    let threads = arguments.threads.map_or_else(parallel::host_threads, usize::from);
+    let threads = arguments.threads.count();
     let matrix = match arguments.method {
         Method::Exact => exact(&open.scene, arguments.tolerance, threads),
         Method::Rays => by_rays(&open, arguments, threads)?,
     };
-    let text = written(&Objects::new(&open.scene), &matrix, arguments.format);
+    let text = formatted(&Objects::new(&open.scene), &matrix, arguments.format);
     let Some(path) = &arguments.output else { return Ok(text) };
-    lab::write_file(path, text.as_bytes()).map_err(Exit::bad_input)?;
+    write(path, text)?;
     Ok(String::new())
 }
 
-/// Row by row.
+/// Form factors, row by row.
 type Matrix = Vec<Vec<Estimate>>;
 
 fn exact(scene: &Scene, tolerance: f64, threads: usize) -> Matrix {
@@ -108,7 +110,7 @@ fn by_rays(open: &OpenScene, arguments: &Arguments, threads: usize) -> Result<Ma
     Ok(matrix)
 }
 
-fn written(objects: &Objects, matrix: &Matrix, format: Format) -> String {
+fn formatted(objects: &Objects, matrix: &Matrix, format: Format) -> String {
     let count = objects.count();
     let all = (0..count).flat_map(|from| (0..count).map(move |to| (from, to)));
     let rows = all.map(|(from, to)| (objects.name(from), objects.name(to), matrix[from][to]));

@@ -1,4 +1,4 @@
-//! `virtwall run --live`: a page that shows runs while they are under way.
+//! `virtwall run --live`: serves a page that shows runs while they are under way.
 
 use std::io::{IsTerminal, stdin};
 use std::net::{IpAddr, SocketAddr};
@@ -10,20 +10,20 @@ use clap::Args;
 use lab::{Feed, News, Plan};
 use live::{Board, Server, Site};
 
-use crate::exit::{Exit, note};
+use crate::exit::{Exit, print_note};
 
-/// How long viewers have to fetch the report where nobody sits at a terminal.
+/// How long viewers have to fetch the report if standard input is no terminal.
 const PATIENCE: Duration = Duration::from_secs(5);
 
 /// Whether and where to serve.
 #[derive(Args)]
 pub struct Serving {
     /// Serve a page that shows the runs while they are under way, on this port of 127.0.0.1
-    /// [default: one that is free]. It becomes the report when all have ended
+    /// [default: a free port]. When all runs have ended, the page becomes the report
     #[arg(long, value_name = "PORT", num_args = 0..=1, require_equals = true)]
     #[arg(default_missing_value = "0")]
     live: Option<u16>,
-    /// Serve it at this address of this host instead; whoever can reach that can look on
+    /// Serve at this address of this host; everyone who can reach it can see the page
     #[arg(long, value_name = "ADDRESS", requires = "live", default_value = "127.0.0.1")]
     live_address: IpAddr,
 }
@@ -51,12 +51,12 @@ impl Site for Page {
 }
 
 impl Serving {
-    /// Whether it is asked for.
+    /// Whether a page is asked for.
     pub fn asked(&self) -> bool {
         self.live.is_some()
     }
 
-    /// Begin to serve a plan's page, if that is asked for.
+    /// Begins to serve a plan's page, if that is asked for.
     pub fn start(&self, plan: &Plan) -> Result<Option<Live>, Exit> {
         let Some(port) = self.live else { return Ok(None) };
         let (html, blocks) = lab::live_page(plan, "updates");
@@ -67,23 +67,23 @@ impl Serving {
             |error| Exit::bad_input(format!("--live: cannot listen at {address}: {error}")),
         )?;
         let url = format!("http://{}/", server.address());
-        note(&format!("Live at {url}"));
+        print_note(&format!("Live at {url}"));
         Ok(Some(Live { board, page, url }))
     }
 }
 
 impl Live {
-    /// Where runs tell what happens.
+    /// Receives the parts of runs.
     pub fn feed(&self) -> Feed {
         let board = Arc::clone(&self.board);
         Arc::new(move |run, news| match news {
-            News::Part(part) => board.tell(run, part),
+            News::Part(part) => board.add(run, part),
             News::End => board.end(run),
         })
     }
 
-    /// All runs have ended, and their report is in this folder. On a terminal it is served until somebody
-    /// presses Enter; else until every viewer has fetched it, but not for long.
+    /// All runs have ended, and their report is in this folder. On a terminal it is served until Enter is
+    /// pressed, else until every viewer has fetched it, at most [`PATIENCE`].
     pub fn finish(&self, out: &Path) {
         if let Ok(report) = std::fs::read_to_string(out.join("report.html")) {
             *self.page.html.lock().unwrap_or_else(PoisonError::into_inner) = report.into();
@@ -91,13 +91,13 @@ impl Live {
         let viewers = self.board.viewers();
         self.board.finish();
         if stdin().is_terminal() {
-            note(&format!("The report is at {} until you press Enter.", self.url));
-            // At its end as well.
+            print_note(&format!("The report is at {} until you press Enter.", self.url));
+            // The end of standard input counts as Enter.
             let _ = stdin().read_line(&mut String::new());
         } else if viewers > 0 {
             let seconds = PATIENCE.as_secs();
-            note(&format!(
-                "Waiting up to {seconds} s for {viewers} to fetch the report from {}",
+            print_note(&format!(
+                "Waiting up to {seconds} s for {viewers} viewers to fetch the report from {}",
                 self.url
             ));
             self.board.wait_for_viewers(PATIENCE);

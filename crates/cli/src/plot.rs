@@ -1,4 +1,4 @@
-//! `virtwall plot`: plots and report of saved results, drawn anew.
+//! `virtwall plot`: draws the plots and the report of saved results again.
 
 use std::path::PathBuf;
 
@@ -7,14 +7,14 @@ use lab::Results;
 
 use crate::exit::Exit;
 
-/// What to draw.
+/// Which results to draw.
 #[derive(Args)]
 pub struct Arguments {
     /// A folder that `virtwall run` wrote
     results: PathBuf,
 }
 
-/// Draws; returns the names of the files.
+/// Draws; returns the paths of the files.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let results = Results::read(&arguments.results)?;
     let names = results.draw(&arguments.results).map_err(Exit::failure)?;

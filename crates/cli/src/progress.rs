@@ -1,5 +1,5 @@
-//! How far an experiment is, on standard error: on a terminal a bar, and the runs under way in a line each;
-//! else a line now and then.
+//! Progress of an experiment on standard error: on a terminal a bar and a line for each run under way, else
+//! a line every few seconds.
 
 use std::collections::BTreeMap;
 use std::io::IsTerminal;
@@ -9,25 +9,25 @@ use std::time::Duration;
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use lab::{Event, Plan, Pulse};
 
-use crate::exit::note;
+use crate::exit::print_note;
 
-/// Steps of the bar for a run.
+/// Steps of the bar per run.
 const STEPS: u64 = 1000;
 
-/// Seconds between lines where there is no bar: short runs leave none in a log.
+/// Seconds between lines where there is no bar; short experiments print none.
 const BETWEEN_LINES: u64 = 5;
 
 /// The most runs under way that get a line each.
 const MOST_LINES: usize = 8;
 
-/// Characters for the name of a run: lines have to fit 80.
+/// Characters for the name of a run, so that lines fit 80 columns.
 const NAME: usize = 30;
 
-/// Follows runs and shows how far they are.
+/// Shows the progress of runs.
 pub struct Progress {
     plan: Arc<Plan>,
     bar: ProgressBar,
-    /// Whether lines are written: there is no terminal for a bar.
+    /// Whether lines are printed, since there is no terminal for a bar.
     lines: bool,
     counts: Mutex<Counts>,
 }
@@ -36,24 +36,24 @@ pub struct Progress {
 struct Counts {
     found: u64,
     finished: u64,
-    /// Lines so far, or for how many there was time.
+    /// The number of lines that could have been printed so far.
     lines: u64,
     /// Shots so far of each run that is under way.
     shots: BTreeMap<usize, u64>,
-    /// How each run is that is under way.
+    /// The state of each run that is under way.
     pulses: BTreeMap<usize, Pulse>,
-    /// Shots of the last run finished of each problem: what its next run is expected to take.
+    /// Shots of the last finished run of each problem: an estimate for its next run.
     expected: BTreeMap<usize, u64>,
 }
 
 impl Progress {
-    /// Of a plan's runs, to be shown unless `quiet`.
+    /// Of a plan's runs; shows nothing if `quiet`.
     pub fn new(plan: Arc<Plan>, quiet: bool) -> Progress {
         let steps = plan.runs.len() as u64 * STEPS;
         let target =
             if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
         let bar = ProgressBar::with_draw_target(Some(steps), target);
-        let style = ProgressStyle::with_template("{bar:36} {prefix}, {elapsed} gone{msg}");
+        let style = ProgressStyle::with_template("{bar:36} {prefix}, {elapsed} elapsed{msg}");
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
         if !bar.is_hidden() {
             bar.enable_steady_tick(Duration::from_secs(1));
@@ -63,13 +63,13 @@ impl Progress {
         Progress { plan, bar, lines, counts: Mutex::default() }
     }
 
-    /// Whether it shows how runs are.
+    /// Whether it shows the state of runs under way.
     pub fn shows_pulse(&self) -> bool {
         !self.bar.is_hidden()
     }
 
-    /// Takes note of an event.
-    pub fn note(&self, event: Event) {
+    /// Updates the progress.
+    pub fn update(&self, event: Event) {
         let mut counts = self.counts.lock().unwrap_or_else(PoisonError::into_inner);
         match event {
             Event::Found => counts.found += 1,
@@ -85,7 +85,7 @@ impl Progress {
         self.show(&mut counts);
     }
 
-    /// Takes the bar away.
+    /// Removes the bar.
     pub fn end(&self) {
         self.bar.finish_and_clear();
     }
@@ -93,7 +93,7 @@ impl Progress {
     fn show(&self, counts: &mut Counts) {
         let under_way = counts.shots.iter().map(|(run, &shots)| {
             let expected = counts.expected.get(&self.plan.runs[*run].problem);
-            // What no run of its problem has told yet is not guessed at.
+            // Without a finished run of its problem there is no estimate.
             expected.map_or(0, |&expected| (STEPS * shots / expected.max(1)).min(STEPS * 9 / 10))
         });
         let ended = counts.found + counts.finished;
@@ -101,21 +101,23 @@ impl Progress {
         let shots: u64 = counts.shots.values().sum();
         let runs = self.plan.runs.len();
         let message = format!("{ended} of {runs} runs");
-        // Nobody knows before something has been done.
+        // There is no estimate before something is done.
         let left = (self.bar.position() > 0).then(|| HumanDuration(self.bar.eta()));
         let times_up = self.bar.elapsed().as_secs() / BETWEEN_LINES;
         if self.lines && times_up > counts.lines {
             counts.lines = times_up;
-            let gone = HumanDuration(self.bar.elapsed());
+            let elapsed = HumanDuration(self.bar.elapsed());
             let left = left.as_ref().map_or(String::new(), |left| format!(", {left} left"));
-            note(&format!("{message}, {shots} shots in this one, {gone} gone{left}"));
+            print_note(&format!(
+                "{message}, {shots} shots in those under way, {elapsed} elapsed{left}"
+            ));
         }
         self.bar.set_prefix(message);
         let left = left.map_or(String::new(), |left| format!(", {left:#} left"));
         self.bar.set_message(left + &self.under_way(&counts.pulses));
     }
 
-    /// The runs under way, as a table.
+    /// A table of the runs under way.
     fn under_way(&self, pulses: &BTreeMap<usize, Pulse>) -> String {
         let mut table = String::new();
         if !pulses.is_empty() {
@@ -141,17 +143,17 @@ impl Progress {
     }
 }
 
-/// A line below the bar.
+/// A row of the table.
 fn row(name: &str, cells: [String; 5]) -> String {
     let [time, shots, messages, busy, unshot] = cells;
     format!("\n{name:NAME$} {time:>10} {shots:>8} {messages:>9} {busy:>9} {unshot:>8}")
 }
 
-/// Follows pilot runs, which find settings: nobody knows how many there will be.
+/// Progress of pilot runs, which find settings. Their number is not known in advance.
 pub struct Pilots(ProgressBar);
 
 impl Pilots {
-    /// To be shown unless `quiet`; indicatif hides it where standard error is no terminal.
+    /// Shows nothing if `quiet`.
     pub fn new(quiet: bool) -> Pilots {
         let target =
             if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
@@ -159,13 +161,13 @@ impl Pilots {
     }
 
     /// A pilot run has ended.
-    pub fn note(&self, scene: &str, target: f64, runs: usize) {
+    pub fn update(&self, scene: &str, target: f64, runs: usize) {
         let percent = 100.0 * target;
         self.0.set_message(format!("settings for {scene} to {percent} %: {runs} pilot runs"));
         self.0.tick();
     }
 
-    /// Takes it away.
+    /// Removes it.
     pub fn end(&self) {
         self.0.finish_and_clear();
     }

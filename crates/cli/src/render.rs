@@ -1,4 +1,4 @@
-//! `virtwall render`: a scene, or any instant of a run, as a picture, an animation or a glTF file.
+//! `virtwall render`: draws a scene, or any instant of a run, as a picture, an animation or a glTF file.
 
 use std::path::{Path, PathBuf};
 
@@ -12,111 +12,112 @@ use radiosity::{
 };
 
 use crate::exit::Exit;
+use crate::files::write;
 
-/// Frames whose light is in memory at once.
+/// The most frames whose light is in memory at one time.
 const BATCH: usize = 32;
 
-/// What to draw, of what, and how.
+/// What to draw, and how.
 #[derive(Args)]
 pub struct Arguments {
-    /// Name of a scene, or path to a scene description (.json) or an OBJ file, to be solved by itself;
-    /// or path to an experiment (.json), or to a folder of results: a run of it is made again
+    /// A scene (name, description or OBJ file), which is solved without simulation; or an experiment or
+    /// a folder of results, one run of which is simulated again
     what: String,
-    /// Draw a picture to this PNG file
+    /// Write a picture to this PNG file
     #[arg(short, long, value_name = "PNG", required_unless_present = "gltf", value_parser = png)]
     output: Option<PathBuf>,
-    /// Write the patches to this binary glTF file: at each vertex COLOR_0, what a picture would show,
-    /// exposure and tone applied, and _RADIOSITY, W/m²
+    /// Write the patches to this binary glTF file, with vertex attributes COLOR_0 (as in a picture, with
+    /// exposure and tone) and _RADIOSITY (W/m²)
     #[arg(long, value_name = "GLB", conflicts_with = "frames")]
     gltf: Option<PathBuf>,
     #[command(flatten)]
     moment: Moment,
     #[command(flatten)]
     view: View,
-    /// How radiosity runs over a patch
+    /// Shading of patches
     #[arg(long, value_enum, default_value = "smooth")]
     shading: ShadingArgument,
-    /// The radiosity that becomes middle grey, W/m² [default: the geometric mean of what is seen, of a
-    /// run at its end; in a glTF file without a picture that of all patches]
+    /// Radiosity that is shown as middle grey, W/m² [default: the geometric mean of what the picture
+    /// shows, for runs at their end; for a glTF file alone that of all patches]
     #[arg(long, value_name = "W/M2", value_parser = positive)]
     exposure: Option<f64>,
-    /// How what is brighter than middle grey nears white
+    /// Tone mapping
     #[arg(long, value_enum, default_value = "reinhard")]
     tone: ToneArgument,
 }
 
-/// Which light.
+/// Which light to show.
 #[derive(Args)]
 struct Moment {
-    /// Solve a scene until no more than this is unshot, or 5,000 shots are done
+    /// Solve a scene until at most this share of the light is unshot, or for 5,000 shots
     #[arg(long, value_name = "SHARE", default_value = "10 %", value_parser = share)]
     unshot: f64,
-    /// The run: its row in runs.csv, from 1 [default: the last]
+    /// Which run: its row in runs.csv, from 1 [default: the last]
     #[arg(long, value_name = "ROW")]
     run: Option<usize>,
-    /// Put a value in the place of the experiment's, as for `virtwall run`
+    /// Override a value of the experiment, as for `virtwall run`
     #[arg(long, value_name = "PATH=VALUE")]
     set: Vec<String>,
-    /// The instant, virtual time, such as "3.2 s" [default: the end]
+    /// Virtual time, such as "3.2 s" [default: the end]
     #[arg(long, value_name = "TIME", value_parser = instant)]
     at: Option<Time>,
-    /// Draw so many pictures, at equal times from the start to the end, as PNG-001.png and so on
+    /// Draw N pictures at equal intervals from the start to the end, as PNG-001.png and so on
     #[arg(long, value_name = "N", conflicts_with = "at", requires = "output")]
     #[arg(value_parser = clap::value_parser!(u32).range(2..=10_000))]
     frames: Option<u32>,
 }
 
-/// From where. Coordinates are the scene's, metres; z is up.
+/// The camera. Coordinates are the scene's, in metres; z is up.
 #[derive(Args)]
 struct View {
-    /// Where the camera stands, unless --eye and --target say
+    /// Position of the camera, unless --eye and --target are given
     #[arg(long, value_enum, default_value = "outside")]
     camera: CameraArgument,
-    /// Where the camera stands
+    /// Position of the camera
     #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
     eye: Option<DVec3>,
-    /// What it looks at
+    /// Point that it looks at
     #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
     target: Option<DVec3>,
-    /// What is up in the picture [default: 0,0,1]
+    /// Direction that is up in the picture [default: 0,0,1]
     #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
     up: Option<DVec3>,
-    /// Angle from the lower to the upper edge of the picture, degrees
+    /// Vertical field of view, degrees
     #[arg(long, value_name = "DEGREES", value_parser = angle)]
     field_of_view: Option<f64>,
-    /// Pixels in a row, and rows
+    /// Size of the picture, pixels
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1200x800", value_parser = size)]
     size: (u32, u32),
-    /// Leave out of pictures what lies above this height, metres
+    /// Leave out of pictures what is above this height, metres
     #[arg(long, value_name = "Z", value_parser = number, allow_hyphen_values = true)]
     cut_above: Option<f64>,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
 enum CameraArgument {
-    /// Looking down on the whole, through the backs of walls
+    /// From outside and above; backs of walls are not drawn
     Outside,
-    /// In a corner, looking across
+    /// In a corner of the scene
     Inside,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
 enum ShadingArgument {
-    /// Means of the patches that meet at a corner, in one plane of one object
+    /// Interpolated from means at corners, within one plane of one object
     Smooth,
-    /// Each patch as it is
+    /// One colour per patch
     Flat,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
 enum ToneArgument {
-    /// Softly (Reinhard 2002)
+    /// Photographic, with soft highlights (Reinhard 2002)
     Reinhard,
-    /// In proportion, cut off: radiosity can be read back from a picture
+    /// Proportional and clipped: radiosity can be computed from a picture
     Linear,
 }
 
-/// Draws; says what it drew.
+/// Draws; returns what was drawn.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let Moment { set, run, at, frames, .. } = &arguments.moment;
     let stage = Stage::open(&arguments.what, &Which { set, row: *run })?;
@@ -132,15 +133,15 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         ShadingArgument::Smooth => Shading::Smooth,
         ShadingArgument::Flat => Shading::Flat,
     };
-    let studio = Studio {
+    let renderer = Renderer {
         arguments,
         stage: &stage,
         mesh: Mesh::new(stage.space(), stage.environments(), shading),
         camera,
     };
     let drawn = match (frames, &arguments.output) {
-        (Some(frames), Some(output)) => studio.animation(*frames, output)?,
-        _ => studio.still()?,
+        (Some(frames), Some(output)) => renderer.animation(*frames, output)?,
+        _ => renderer.still()?,
     };
     let mut text = format!("{}\n{drawn}", stage.title);
     for file in stage.run.iter().flat_map(|run| &run.changed) {
@@ -153,15 +154,15 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     })
 }
 
-/// A scene before its camera.
-struct Studio<'a> {
+/// A scene and its camera.
+struct Renderer<'a> {
     arguments: &'a Arguments,
     stage: &'a Stage,
     mesh: Mesh<'a>,
     camera: Camera,
 }
 
-impl Studio<'_> {
+impl Renderer<'_> {
     /// One picture, one glTF file, or both.
     fn still(&self) -> Result<String, Exit> {
         let (light, mut exposure, when) = match &self.stage.run {
@@ -185,7 +186,7 @@ impl Studio<'_> {
         if let Some(path) = &self.arguments.gltf {
             let origin = self.stage.space().scene.origin;
             let (bytes, middle_grey) = self.mesh.to_glb(&light, origin, exposure, self.tone());
-            lab::write_file(path, &bytes).map_err(Exit::bad_input)?;
+            write(path, &bytes)?;
             exposure = Exposure::MiddleGrey(middle_grey);
         }
         Ok(match exposure {
@@ -213,12 +214,12 @@ impl Studio<'_> {
         Ok(format!("{frames} pictures until {end}, the last one is {}\n", last.display()))
     }
 
-    /// The light of the run at these times, and its end.
+    /// The light of the run at these times, and the time of its end.
     fn light_at(&self, times: &[Time]) -> Result<(Vec<Light>, Time), Exit> {
         self.stage.light_at(times).map_err(Exit::failure)
     }
 
-    /// The exposure of all instants of a run: what suits its end.
+    /// The exposure for all instants of a run: that of its end.
     fn exposure_of_end(&self, light: &Light) -> Result<Exposure, Exit> {
         match self.exposure() {
             Exposure::Auto if self.arguments.output.is_some() => {
@@ -237,11 +238,11 @@ impl Studio<'_> {
         render(scene, &self.camera, colour, options).map_err(Exit::bad_input)
     }
 
-    /// Returns the radiosity that became middle grey.
+    /// Returns the radiosity that is shown as middle grey.
     fn write_picture(&self, light: &[Rgb], exposure: Exposure, path: &Path) -> Result<f64, Exit> {
         let picture = self.picture(light, exposure)?;
         let bytes = picture.encode_png().map_err(Exit::failure)?;
-        lab::write_file(path, &bytes).map_err(Exit::bad_input)?;
+        write(path, &bytes)?;
         Ok(picture.middle_grey)
     }
 
@@ -275,14 +276,14 @@ impl View {
         if (camera.target - camera.eye).cross(camera.up).length_squared() > 0.0 {
             Ok(camera)
         } else {
-            Err("--eye, --target, --up: nothing between eye and target, or up along the line of \
-                 sight; expected a direction to look in, and another one up"
+            Err("--eye, --target, --up: eye and target are the same point, or up is parallel to the \
+                 line of sight; expected two different directions"
                 .to_owned())
         }
     }
 }
 
-/// The instant when so many of so many equal parts of a run are over.
+/// The time at which `parts` of `of` equal parts of a run are over.
 fn part(end: Time, parts: u32, of: u32) -> Time {
     let share = f64::from(parts) / f64::from(of);
     Time::ZERO + desim::Duration::from_seconds_f64(end.as_seconds_f64() * share)
@@ -292,7 +293,7 @@ fn seconds(time: Time) -> String {
     format!("{:.6} s", time.as_seconds_f64())
 }
 
-/// The file of a frame, as many digits as the last one has, and at least three.
+/// The file of a frame: its number has as many digits as the last frame's, at least three.
 fn numbered(path: &Path, frame: u32, frames: u32) -> PathBuf {
     let digits = frames.to_string().len().max(3);
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();

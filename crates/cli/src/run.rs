@@ -1,4 +1,4 @@
-//! `virtwall run`: an experiment, from its file to its results.
+//! `virtwall run`: carries out an experiment and writes its results.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -8,62 +8,62 @@ use lab::{Endings, HostClock, On, Options, Plan, Preparing, Results, ShotFiles, 
 use multicomputer::quantity::{Dimension, QuantityError, parse};
 use traces::{Format, Sample};
 
-use crate::exit::{Exit, say};
+use crate::exit::{Exit, print};
+use crate::files::make_folder;
 use crate::live;
 use crate::progress::{Pilots, Progress};
+use crate::threads::Threads;
 
-/// What to run, and how.
+/// Which experiment to run, and how.
 #[derive(Args)]
 pub struct Arguments {
-    /// The experiment file. Scenes and machines that it names are looked up in scenes/ and
-    /// machines/ beside its folder, then in the current folder.
+    /// The experiment file. Scenes and machines are looked up in scenes/ and machines/ next to its
+    /// folder, then in the current folder
     file: PathBuf,
     /// Folder for the results [default: results/<name of the experiment file>]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Threads: runs side by side, and within a run when none waits [default: one for each of this
-    /// host's processors]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
-    /// Put a value in the place of the file's, such as stop.patch_threshold="5 %" or
-    /// processors=[1,2]; a list sweeps
+    #[command(flatten)]
+    threads: Threads,
+    /// Override a value of the file, such as stop.patch_threshold="5 %" or processors=[1,2]; a list
+    /// makes a sweep
     #[arg(long, value_name = "PATH=VALUE")]
     set: Vec<String>,
-    /// Model of the network: ideal, loggp, wormhole, flit, or auto, the cheapest that will do;
+    /// Network model: ideal, loggp, wormhole, flit, or auto for the cheapest that is accurate enough;
     /// short for --set network=MODEL
     #[arg(long, value_name = "MODEL")]
     network: Option<String>,
-    /// What the programs run on
+    /// Where the parallel program runs
     #[arg(long, value_enum, default_value = "simulation")]
     on: OnArgument,
-    /// Forget the runs that an interrupted sweep has finished
+    /// Discard the finished runs of an interrupted sweep
     #[arg(long)]
     fresh: bool,
-    /// Host memory for shots that are kept from one run for the next, such as 4GB or 500MiB
-    /// [default: half of what is free]
+    /// Host memory for keeping shots between runs, such as 4GB or 500MiB [default: half of the free
+    /// memory]
     #[arg(long, value_name = "SIZE", value_parser = size)]
     memory: Option<usize>,
-    /// Keep shots in this folder as well: those that memory has no room for, and all for the next
-    /// time. It can be emptied whenever nothing runs
+    /// Keep shots in this folder, too, for this and later experiments. It can be emptied when no
+    /// experiment is running
     #[arg(long, value_name = "DIR")]
     keep_shots: Option<PathBuf>,
-    /// Write a trace of every run into this folder, a file a run, in virtual time
+    /// Write a trace of each run to this folder, in virtual time
     #[arg(long, value_name = "DIR")]
     trace: Option<PathBuf>,
-    /// What the traces are to be read by
+    /// Format of the traces
     #[arg(long, value_enum, requires = "trace", default_value = "perfetto")]
     trace_format: FormatArgument,
-    /// Show one message in N in the traces, and all that nodes compute
+    /// Show only one message in N in the traces; all computing is shown
     #[arg(long, value_name = "N", requires = "trace", default_value = "1")]
     #[arg(value_parser = clap::value_parser!(u32).range(1..))]
     trace_sample: u32,
-    /// Runs that the report's viewer shows: auto (all of a few, else for each scene those on the
-    /// fewest and the most processors), all, none, or rows of runs.csv such as 1,8,24
+    /// Runs that the report's viewer shows: auto (all if there are few, else of each scene the runs on
+    /// the fewest and the most processors), all, none, or rows of runs.csv such as 1,8,24
     #[arg(long, value_name = "RUNS", default_value = "auto", value_parser = viewing)]
     viewer: Viewing,
     #[command(flatten)]
     live: live::Serving,
-    /// Print nothing but what went wrong: no progress, no table
+    /// Print only errors: no progress, no table
     #[arg(long, short)]
     quiet: bool,
 }
@@ -83,16 +83,16 @@ fn viewing(text: &str) -> Result<Viewing, String> {
     }
 }
 
-/// A number of bytes, with its unit.
+/// Parses a number of bytes with its unit.
 fn size(text: &str) -> Result<usize, QuantityError> {
     parse(text, Dimension::Bytes).map(|bytes| bytes as usize)
 }
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum OnArgument {
-    /// The simulated machine: virtual time, the same on every host
+    /// On the simulated machine: virtual time, the same on every host
     Simulation,
-    /// Threads of this host: the same light, no virtual time
+    /// On threads of this host: the same light, no virtual time
     Threads,
 }
 
@@ -107,12 +107,12 @@ enum FormatArgument {
 /// Runs the experiment; returns the table of its results.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let clock = HostClock::start();
-    let network = arguments.network.iter().map(|rung| format!("network={rung}"));
+    let network = arguments.network.iter().map(|model| format!("network={model}"));
     let set: Vec<String> = arguments.set.iter().cloned().chain(network).collect();
-    let threads = arguments.threads.map_or_else(parallel::host_threads, usize::from);
+    let threads = arguments.threads.count();
     let memory = arguments.memory.unwrap_or_else(lab::half_of_free_memory);
     let pilots = Pilots::new(arguments.quiet);
-    let on_pilot = |scene: &str, target, runs| pilots.note(scene, target, runs);
+    let on_pilot = |scene: &str, target, runs| pilots.update(scene, target, runs);
     let preparing = Preparing { threads, memory, finding: true, on_pilot: &on_pilot };
     let plan = Arc::new(Plan::read(&arguments.file, &set, &preparing)?);
     pilots.end();
@@ -126,8 +126,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     }
     let shot_files = arguments.keep_shots.as_deref().map(open_shot_files).transpose()?;
     let live = arguments.live.start(&plan)?;
-    std::fs::create_dir_all(&out)
-        .map_err(|error| Exit::bad_input(format!("{place}: no folder for results: {error}")))?;
+    make_folder(&out, "results")?;
 
     let on = match arguments.on {
         OnArgument::Simulation => On::Simulation,
@@ -140,7 +139,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let options = Options { threads, fresh, on, memory, shot_files, traces, viewing, feed, pulse };
     let watch = {
         let progress = Arc::clone(&progress);
-        Arc::new(move |event| progress.note(event))
+        Arc::new(move |event| progress.update(event))
     };
     let endings = lab::carry_out(&plan, &out, &options, watch).map_err(Exit::failure)?;
     progress.end();
@@ -157,7 +156,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         output.clear();
     }
     if let Some(live) = live {
-        say(&std::mem::take(&mut output));
+        print(&std::mem::take(&mut output));
         live.finish(&out);
     }
     match results.failures() {
@@ -169,7 +168,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     }
 }
 
-/// The results, in words.
+/// The results as text.
 fn output(plan: &Plan, results: &Results, endings: &Endings) -> String {
     let networks = lab::networks_text(plan, endings);
     let mut output = format!("{}\n{}\n{networks}", plan.title, results.text());
@@ -181,15 +180,13 @@ fn needs_simulation(argument: &str) -> String {
     format!("{argument}: found --on threads; expected the simulation, which has virtual time")
 }
 
-/// The traces that are asked for, and their folder made.
+/// The traces that are asked for; makes their folder.
 fn traces(arguments: &Arguments) -> Result<Option<Traces>, Exit> {
     let Some(folder) = arguments.trace.clone() else { return Ok(None) };
     if arguments.on == OnArgument::Threads {
         return Err(Exit::bad_input(needs_simulation("--trace")));
     }
-    std::fs::create_dir_all(&folder).map_err(|error| {
-        Exit::bad_input(format!("{}: no folder for traces: {error}", folder.display()))
-    })?;
+    make_folder(&folder, "traces")?;
     let format = match arguments.trace_format {
         FormatArgument::Perfetto => Format::Perfetto,
         FormatArgument::Paje => Format::Paje,
@@ -199,11 +196,11 @@ fn traces(arguments: &Arguments) -> Result<Option<Traces>, Exit> {
 
 fn open_shot_files(folder: &Path) -> Result<ShotFiles, Exit> {
     ShotFiles::open(folder).map_err(|error| {
-        Exit::bad_input(format!("{}: no folder for shots: {error}", folder.display()))
+        Exit::bad_input(format!("{}: cannot make a folder for shots: {error}", folder.display()))
     })
 }
 
-/// How often a kept shot served, in a line.
+/// How many shots were found in memory or on disk, as a line.
 fn shots(endings: &Endings) -> String {
     let (shots, megabytes) = (endings.shots, endings.shot_bytes as f64 / 1e6);
     format!(

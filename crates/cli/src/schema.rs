@@ -1,4 +1,4 @@
-//! `virtwall schema`: what editors complete our files with.
+//! `virtwall schema`: prints the JSON Schema of a kind of file, for completion in editors.
 
 use clap::{Args, ValueEnum};
 
@@ -19,9 +19,9 @@ enum Kind {
     Machine,
     /// Scene descriptions
     Scene,
-    /// Cases of `virtwall stability`
+    /// Cases for `virtwall stability`
     Stability,
-    /// Traces of messages, to be replayed
+    /// Traces of messages for `virtwall machine replay`
     Trace,
 }
 

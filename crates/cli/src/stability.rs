@@ -1,4 +1,4 @@
-//! `virtwall stability`: the cases where such methods fail, tried and drawn.
+//! `virtwall stability`: runs the cases in which numerical methods like ours can fail, and writes their page.
 
 use std::path::{Path, PathBuf};
 
@@ -6,23 +6,24 @@ use clap::Args;
 use stability::{Verdict, cases, csv, page, svg, try_case};
 
 use crate::exit::Exit;
+use crate::files::{make_folder, write};
 use crate::steps::Steps;
 
-/// Which cases, and where the page goes.
+/// Which cases, and where to write the page.
 #[derive(Args)]
 pub struct Arguments {
-    /// Case files, or names of cases in the folder of cases [default: all of them]
+    /// Case files, or names of cases in the folder of cases [default: all cases]
     case: Vec<String>,
     /// Folder of the cases
     #[arg(long, value_name = "DIR", default_value = "experiments/stability")]
     cases: PathBuf,
-    /// Folder for the page, its table and its drawing [default: results/stability if all cases are
-    /// tried, else none]
+    /// Folder for the page, its table and its drawing [default: results/stability if all cases run,
+    /// else none]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }
 
-/// Tries the cases; returns what was found, a line each.
+/// Runs the cases; returns a line of CSV for each.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let paths = match arguments.case.is_empty() {
         true => cases(&arguments.cases)?,
@@ -36,19 +37,19 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let verdicts = tried.into_iter().collect::<Result<Vec<_>, _>>()?;
     let all = || arguments.case.is_empty().then(|| PathBuf::from("results/stability"));
     if let Some(out) = arguments.out.clone().or_else(all) {
-        write(&out, &verdicts)?;
+        write_page(&out, &verdicts)?;
     }
     let output = csv(&verdicts).map_err(Exit::failure)?;
     match verdicts.iter().filter(|verdict| !verdict.holds()).count() {
         0 => Ok(output),
         wrong => {
-            let message = format!("{wrong} of {} cases are not right", verdicts.len());
+            let message = format!("{wrong} of {} cases failed", verdicts.len());
             Err(Exit { code: 1, output, message })
         }
     }
 }
 
-/// A case's file: a path, or a name in the folder of cases.
+/// A case's file, given its path or its name in the folder of cases.
 fn place(folder: &Path, name: &str) -> Result<PathBuf, Exit> {
     let path = PathBuf::from(name);
     let in_folder = folder.join(format!("{name}.json"));
@@ -61,14 +62,13 @@ fn place(folder: &Path, name: &str) -> Result<PathBuf, Exit> {
     Err(Exit::bad_input(format!("unknown case \"{name}\" (there are: {})", names.join(", "))))
 }
 
-fn write(out: &Path, verdicts: &[Verdict]) -> Result<(), Exit> {
-    std::fs::create_dir_all(out)
-        .map_err(|error| Exit::bad_input(format!("{}: no folder: {error}", out.display())))?;
+fn write_page(out: &Path, verdicts: &[Verdict]) -> Result<(), Exit> {
+    make_folder(out, "results")?;
     let table = csv(verdicts).map_err(Exit::failure)?;
     let files =
         [("README.md", page(verdicts)), ("cases.csv", table), ("stability.svg", svg(verdicts))];
     for (name, text) in files {
-        lab::write_file(&out.join(name), text.as_bytes()).map_err(Exit::bad_input)?;
+        write(&out.join(name), text)?;
     }
     Ok(())
 }

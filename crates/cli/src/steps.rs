@@ -1,23 +1,23 @@
-//! A progress bar over steps that are counted, on standard error, and only on a terminal.
+//! A progress bar over a number of steps, on standard error, shown only on a terminal.
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// How many of some steps are done.
+/// A progress bar.
 pub struct Steps(ProgressBar);
 
 impl Steps {
-    /// A bar for so many steps; indicatif hides it where standard error is no terminal.
+    /// A bar of `count` steps of something.
     pub fn new(what: &'static str, count: usize) -> Steps {
         let bar = ProgressBar::new(count as u64);
         let style = ProgressStyle::with_template(
-            "{bar:36} {pos} of {len} {msg}, {elapsed} gone, {eta} left",
+            "{bar:36} {pos} of {len} {msg}, {elapsed} elapsed, {eta} left",
         );
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
         bar.set_message(what);
         Steps(bar)
     }
 
-    /// `work`, each end of which is a step done.
+    /// Wraps work on numbered items so that each item is a step.
     pub fn counting<T>(&self, work: impl Fn(usize) -> T) -> impl Fn(usize) -> T {
         move |number| {
             let result = work(number);
@@ -26,23 +26,23 @@ impl Steps {
         }
     }
 
-    /// One more is done.
+    /// One more step is done.
     pub fn one(&self) {
         self.0.inc(1);
     }
 
-    /// So many are done by now.
+    /// Sets the number of steps done.
     pub fn at(&self, steps: u64) {
         self.0.set_position(steps);
     }
 
-    /// So many were done before.
+    /// Counts steps that were done in an earlier run.
     pub fn skip(&self, steps: u32) {
         self.0.inc(u64::from(steps));
         self.0.reset_eta();
     }
 
-    /// Takes the bar away.
+    /// Removes the bar.
     pub fn end(&self) {
         self.0.finish_and_clear();
     }

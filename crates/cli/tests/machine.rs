@@ -56,7 +56,7 @@ fn a_replay_can_go_to_a_file() {
     let arguments = "machine replay t.json --network wormhole --out t.csv --channels c.csv";
     let arguments: Vec<&str> = arguments.split(' ').collect();
     let (code, said, _) = virtwall(&folder, &arguments);
-    assert_eq!((code, said.as_str()), (0, "1 messages; their courses are in t.csv.\n"));
+    assert_eq!((code, said.as_str()), (0, "1 messages; the table is in t.csv.\n"));
     let table = fs::read_to_string(project.path("t.csv")).unwrap();
     // 4,096 B at 175 MB/s.
     let channels = fs::read_to_string(project.path("c.csv")).unwrap();

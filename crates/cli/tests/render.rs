@@ -113,7 +113,7 @@ fn what_cannot_be_drawn_is_refused() {
         ("experiments/x.json -o a.png --frames 1", "1 is not in 2..=10000"),
         ("scenes -o a.png", "manifest.json"),
         ("box -o a.png --eye 1,2", "found \"1,2\"; expected three numbers"),
-        ("box -o a.png --eye 1,1,1 --target 1,1,1", "nothing between eye and target"),
+        ("box -o a.png --eye 1,1,1 --target 1,1,1", "eye and target are the same point"),
         ("box -o a.png --size 60", "found \"60\"; expected pixels"),
         ("box -o a.png --size 0x9", "expected pixels, 1 to 8192 either way"),
         ("box -o a.png --exposure 0", "found \"0\"; expected a number above zero"),

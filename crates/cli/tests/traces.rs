@@ -101,7 +101,7 @@ fn what_cannot_be_traced_is_refused() {
     let project = Project::new(SWEEP);
     for (arguments, expected) in [
         (&["--trace", "t", "--on", "threads"][..], "--on threads"),
-        (&["--trace", "experiments/x.json"], "experiments/x.json: no folder for traces"),
+        (&["--trace", "experiments/x.json"], "experiments/x.json: cannot make a folder for traces"),
         (&["--trace-sample", "2"], "--trace <DIR>"),
         (&["--trace-format", "paje"], "--trace <DIR>"),
         (&["--trace", "t", "--trace-sample", "0"], "--trace-sample"),

@@ -1,14 +1,14 @@
-//! What has been told of the runs that are under way.
+//! The parts of all runs so far: the simulation writes them, viewers read them.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// The most bytes of a run that are kept for viewers; what comes after is not told.
+/// The most bytes of a run that are kept for viewers; later parts are dropped.
 const MOST_BYTES: usize = 64 << 20;
 
-/// What viewers may read. Who writes on it never waits for who reads: readers hold it only while they
-/// copy references.
+/// What viewers may read. A writer never waits for a viewer: readers hold the lock only while they copy
+/// references.
 #[derive(Default)]
 pub struct Board {
     state: Mutex<State>,
@@ -17,72 +17,72 @@ pub struct Board {
 
 #[derive(Default)]
 pub(crate) struct State {
-    /// Runs under way, and the one that has ended last, by number.
-    pub runs: BTreeMap<usize, Told>,
-    /// In the order in which they began.
+    /// Runs under way, and the one that ended last, by number.
+    pub runs: BTreeMap<usize, Parts>,
+    /// Numbers of runs in the order in which they began.
     pub under_way: Vec<usize>,
-    /// How many have ended.
+    /// The number of runs that have ended.
     pub ended: usize,
-    /// Whether all is over.
+    /// Whether all runs have ended.
     pub finished: bool,
-    /// Streams that are open.
+    /// The number of open streams.
     pub viewers: usize,
-    /// Pages still to be fetched by viewers that have heard of the end.
-    pub called: usize,
+    /// The number of viewers that know of the end and have not fetched the page since.
+    pub fetching: usize,
 }
 
-/// What was told of a run.
+/// The parts of one run.
 #[derive(Default)]
-pub(crate) struct Told {
+pub(crate) struct Parts {
     pub parts: Vec<Arc<str>>,
     bytes: usize,
-    /// Whether something was not kept.
+    /// Whether parts were dropped.
     pub cut: bool,
     pub ended: bool,
 }
 
 impl Board {
-    /// A part of a run: the first one begins it.
-    pub fn tell(&self, run: usize, part: String) {
+    /// Adds a part of a run; the first part begins the run.
+    pub fn add(&self, run: usize, part: String) {
         let mut state = self.lock();
         if !state.under_way.contains(&run) {
             state.under_way.push(run);
         }
-        let told = state.runs.entry(run).or_default();
-        told.bytes += part.len();
-        match told.bytes <= MOST_BYTES {
-            true => told.parts.push(part.into()),
-            false => told.cut = true,
+        let parts = state.runs.entry(run).or_default();
+        parts.bytes += part.len();
+        match parts.bytes <= MOST_BYTES {
+            true => parts.parts.push(part.into()),
+            false => parts.cut = true,
         }
         self.changed.notify_all();
     }
 
-    /// A run has ended. What was told of those that ended before it goes.
+    /// A run has ended. The parts of runs that ended before it are dropped.
     pub fn end(&self, run: usize) {
         let mut state = self.lock();
         state.under_way.retain(|&other| other != run);
         state.ended += 1;
-        state.runs.retain(|&other, told| other == run || !told.ended);
+        state.runs.retain(|&other, parts| other == run || !parts.ended);
         state.runs.entry(run).or_default().ended = true;
         self.changed.notify_all();
     }
 
-    /// All runs have ended, and another page is there for whoever asks.
+    /// All runs have ended, and the site has its final page.
     pub fn finish(&self) {
         self.lock().finished = true;
         self.changed.notify_all();
     }
 
-    /// Waits until every viewer has heard of the end and has fetched the page that is there since, or
-    /// until the time is over; says how many had not.
+    /// Waits until every viewer knows of the end and has fetched the final page, at most for `time`.
+    /// Returns the number of viewers that have not.
     pub fn wait_for_viewers(&self, time: Duration) -> usize {
-        let waits = |state: &mut State| state.viewers + state.called > 0;
+        let waits = |state: &mut State| state.viewers + state.fetching > 0;
         let waited = self.changed.wait_timeout_while(self.lock(), time, waits);
         let (state, _) = waited.unwrap_or_else(PoisonError::into_inner);
-        state.viewers + state.called
+        state.viewers + state.fetching
     }
 
-    /// How many viewers there are.
+    /// The number of viewers.
     pub fn viewers(&self) -> usize {
         self.lock().viewers
     }
@@ -97,19 +97,19 @@ impl Board {
         changed
     }
 
-    /// What `look` finds, as soon as it finds something, or nothing after that time.
+    /// Waits until `look` finds something, at most for `time`.
     pub(crate) fn wait_for<T>(
         &self,
         time: Duration,
         mut look: impl FnMut(&State) -> Option<T>,
     ) -> Option<T> {
         let mut found = None;
-        let nothing = |state: &mut State| {
+        let nothing_found = |state: &mut State| {
             found = look(state);
             found.is_none()
         };
-        // Whatever became of the time: what was found last counts.
-        let _ = self.changed.wait_timeout_while(self.lock(), time, nothing);
+        // Whether the time is over or not, `found` has what the last look found.
+        let _ = self.changed.wait_timeout_while(self.lock(), time, nothing_found);
         found
     }
 }

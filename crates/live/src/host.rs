@@ -1,11 +1,11 @@
-//! Whom a request is meant for.
+//! Whether a request is addressed to this host.
 
 use std::net::IpAddr;
 
 /// Whether a request's `Host` names a server that listens at this address.
 ///
-/// A page of someone else's whose name has been made to point here (DNS rebinding) still sends that
-/// name. The port is not looked at: it is another one at the far end of a tunnel.
+/// A foreign page whose name was made to point here (DNS rebinding) still sends its own name. The port is
+/// not checked: behind a tunnel it is a different one.
 pub(crate) fn is_ours(host: &str, address: IpAddr) -> bool {
     let name = match host.strip_prefix('[') {
         Some(rest) => rest.split(']').next().unwrap_or_default(),
@@ -23,7 +23,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_of_others_are_refused() {
+    fn foreign_names_are_refused() {
         let loopback = IpAddr::from([127, 0, 0, 1]);
         for host in ["127.0.0.1:80", "localhost", "LOCALHOST:9", "[::1]:80", "127.0.0.1"] {
             assert!(is_ours(host, loopback), "{host}");

@@ -1,4 +1,4 @@
-//! A viewer's place on the board.
+//! One viewer's position on the board.
 
 use std::sync::Arc;
 
@@ -7,40 +7,41 @@ use crate::board::State;
 /// What a viewer reads next.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Event {
-    /// So many runs have ended, and these are under way.
+    /// The number of runs that have ended, and those under way.
     Runs { ended: usize, under_way: Vec<usize> },
-    /// A run is told from its beginning.
+    /// Parts of this run follow, from its beginning.
     Begin(usize),
-    /// What happened in it since.
+    /// What happened in it since the last part.
     Part(Arc<str>),
-    /// No more will be told of the run, though it goes on.
+    /// No more parts of this run follow, though it goes on.
     Cut(usize),
-    /// The run has ended, or was over before this viewer came to its end.
+    /// The run has ended, and possibly was dropped before this viewer had read all of it.
     End(usize),
-    /// All is over.
+    /// All runs have ended.
     Finished,
 }
 
-/// Reads from a run's beginning to its end, then goes on to another: the one that has begun last. A
-/// viewer that is slow loses no part of a run unless the run and another one end meanwhile.
+/// Reads a run from its beginning to its end, then the run that began last. A slow viewer loses no part
+/// of a run unless the run and another one end before it has read them.
 pub(crate) struct Reader {
-    /// The only run that it asks for.
+    /// The only run that the viewer asks for.
     only: Option<usize>,
-    reads: Option<usize>,
-    /// Parts of it that were read.
+    current: Option<usize>,
+    /// The number of its parts that were read.
     parts: usize,
     cut: bool,
     /// The run that was read last.
     last: Option<usize>,
+    /// The last `Runs` event.
     runs: Option<Event>,
 }
 
 impl Reader {
     pub fn new(only: Option<usize>) -> Reader {
-        Reader { only, reads: None, parts: 0, cut: false, last: None, runs: None }
+        Reader { only, current: None, parts: 0, cut: false, last: None, runs: None }
     }
 
-    /// All that is there to be read; nothing if there is nothing new.
+    /// All new events, if there are any.
     pub fn read(&mut self, state: &State) -> Option<Vec<Event>> {
         if state.finished {
             return Some(vec![Event::Finished]);
@@ -51,36 +52,36 @@ impl Reader {
             self.runs = Some(runs.clone());
             events.push(runs);
         }
-        if self.reads.is_none() {
+        if self.current.is_none() {
             events.extend(self.begin(state));
         }
-        self.go_on(state, &mut events);
+        self.continue_run(state, &mut events);
         Some(events).filter(|events| !events.is_empty())
     }
 
     fn begin(&mut self, state: &State) -> Option<Event> {
-        // One that is over and gone cannot be waited for.
+        // A run that is over and was dropped cannot be waited for.
         let only = self.only.filter(|run| state.runs.contains_key(run));
         let wanted = |run: &usize| only.is_none_or(|only| only == *run) && self.last != Some(*run);
         let mut known = state.under_way.iter().rev().chain(state.runs.keys()).copied();
         let run = known.find(wanted)?;
-        (self.reads, self.parts, self.cut) = (Some(run), 0, false);
+        (self.current, self.parts, self.cut) = (Some(run), 0, false);
         Some(Event::Begin(run))
     }
 
-    fn go_on(&mut self, state: &State, events: &mut Vec<Event>) {
-        let Some(run) = self.reads else { return };
-        let told = state.runs.get(&run);
-        if let Some(told) = told {
-            events.extend(told.parts[self.parts..].iter().cloned().map(Event::Part));
-            self.parts = told.parts.len();
-            if told.cut && !self.cut {
+    fn continue_run(&mut self, state: &State, events: &mut Vec<Event>) {
+        let Some(run) = self.current else { return };
+        let parts = state.runs.get(&run);
+        if let Some(parts) = parts {
+            events.extend(parts.parts[self.parts..].iter().cloned().map(Event::Part));
+            self.parts = parts.parts.len();
+            if parts.cut && !self.cut {
                 self.cut = true;
                 events.push(Event::Cut(run));
             }
         }
-        if told.is_none_or(|told| told.ended) {
-            self.last = self.reads.take();
+        if parts.is_none_or(|parts| parts.ended) {
+            self.last = self.current.take();
             events.push(Event::End(run));
         }
     }

@@ -1,4 +1,4 @@
-//! The server: one page, its files, its stream.
+//! The server: listens, and answers requests for one page, its files and its stream of events.
 
 use std::io;
 use std::net::{IpAddr, SocketAddr, TcpListener};
@@ -12,7 +12,7 @@ use crate::board::Board;
 use crate::host::is_ours;
 use crate::stream;
 
-/// The most requests that are answered at a time, streams among them.
+/// The most requests that are answered at one time, including streams.
 const MOST_REQUESTS: usize = 64;
 
 /// What is served.
@@ -20,16 +20,17 @@ pub trait Site: Send + Sync {
     /// The page, as it is now.
     fn page(&self) -> Arc<str>;
 
-    /// A file of this name.
+    /// The file of this name, if there is one.
     fn file(&self, name: &str) -> Option<String>;
 }
 
-/// A server of a site and of a board, whose stream is called `updates`. It lives as long as the process.
+/// A server of a site and of the stream of a board at `/updates`. It lives as long as the process.
 pub struct Server {
     address: SocketAddr,
 }
 
-struct Desk {
+/// What the threads that answer requests share.
+struct Shared {
     address: IpAddr,
     site: Arc<dyn Site>,
     board: Arc<Board>,
@@ -37,10 +38,10 @@ struct Desk {
 }
 
 impl Server {
-    /// Listens at an address; port 0 is one that the system chooses.
+    /// Listens at an address; with port 0 the system chooses a port.
     ///
     /// # Errors
-    /// If the address is not to be had.
+    /// If the address is not available.
     pub fn start(
         address: SocketAddr,
         site: Arc<dyn Site>,
@@ -51,10 +52,10 @@ impl Server {
         let server = tiny_http::Server::from_listener(listener, None).map_err(io::Error::other)?;
         let (ip, board) = (address.ip(), Arc::clone(board));
         let requests = AtomicUsize::new(0);
-        let desk = Arc::new(Desk { address: ip, site, board, requests });
+        let shared = Arc::new(Shared { address: ip, site, board, requests });
         thread::Builder::new().name("live".to_owned()).spawn(move || {
             for request in server.incoming_requests() {
-                desk.take(request);
+                shared.accept(request);
             }
         })?;
         Ok(Server { address })
@@ -66,19 +67,19 @@ impl Server {
     }
 }
 
-impl Desk {
-    /// Answers a request on a thread of its own: whoever asked may be slow to read.
-    fn take(self: &Arc<Self>, request: Request) {
+impl Shared {
+    /// Answers a request on a thread of its own, since the client may be slow to read.
+    fn accept(self: &Arc<Self>, request: Request) {
         if self.requests.fetch_add(1, Ordering::Relaxed) >= MOST_REQUESTS {
             self.requests.fetch_sub(1, Ordering::Relaxed);
-            // Whoever has gone needs no answer.
+            // The client may be gone.
             let _ = request.respond(refusal(503, "too many viewers"));
             return;
         }
-        let desk = Arc::clone(self);
+        let shared = Arc::clone(self);
         thread::spawn(move || {
-            let _ = desk.answer(request);
-            desk.requests.fetch_sub(1, Ordering::Relaxed);
+            let _ = shared.answer(request);
+            shared.requests.fetch_sub(1, Ordering::Relaxed);
         });
     }
 
@@ -86,7 +87,7 @@ impl Desk {
         let mut hosts = request.headers().iter().filter(|header| header.field.equiv("Host"));
         let host = hosts.next().map_or("", |header| header.value.as_str());
         if hosts.next().is_some() || !is_ours(host, self.address) {
-            return request.respond(refusal(403, "this server is not of that name"));
+            return request.respond(refusal(403, "this server does not have that name"));
         }
         let get = *request.method() == Method::Get;
         if !get && *request.method() != Method::Head {
@@ -99,7 +100,7 @@ impl Desk {
                 let (page, finished) = (self.site.page(), self.board.lock().finished);
                 request.respond(file("text/html; charset=utf-8", page.as_bytes()))?;
                 if finished && get {
-                    self.board.update(|state| state.called = state.called.saturating_sub(1));
+                    self.board.update(|state| state.fetching = state.fetching.saturating_sub(1));
                 }
                 Ok(())
             }
@@ -108,13 +109,13 @@ impl Desk {
                 let only = query.strip_prefix("run=").and_then(|run| run.parse().ok());
                 stream::write(&self.board, only, &mut request.into_writer())
             }
-            // Every browser asks for it.
+            // Every browser asks for it; there is none.
             "/favicon.ico" => request.respond(Response::empty(204)),
             path => match path.strip_prefix('/').and_then(|name| self.site.file(name)) {
                 Some(text) => {
                     request.respond(file("text/plain; charset=us-ascii", text.as_bytes()))
                 }
-                None => request.respond(refusal(404, "nothing of that name here")),
+                None => request.respond(refusal(404, "no file of that name")),
             },
         }
     }

@@ -7,29 +7,29 @@ use std::time::Duration;
 use crate::board::Board;
 use crate::reader::{Event, Reader};
 
-/// Silence after which a stream says that it is still there.
-const SILENCE: Duration = Duration::from_secs(15);
+/// Without events a comment is sent after this time, to keep the connection open.
+const KEEP_ALIVE: Duration = Duration::from_secs(15);
 
-/// Writes what the board tells until all is over, or the viewer has gone. It is written as fast as the
-/// viewer reads: nobody else waits for that.
+/// Writes the board's events until all runs have ended or the viewer is gone, as fast as the viewer
+/// reads.
 pub(crate) fn write(board: &Board, only: Option<usize>, to: &mut dyn Write) -> io::Result<()> {
     board.update(|state| state.viewers += 1);
     let written = write_events(board, only, to);
     board.update(|state| {
         state.viewers -= 1;
-        state.called += usize::from(matches!(written, Ok(true)));
+        state.fetching += usize::from(matches!(written, Ok(true)));
     });
     written.map(|_| ())
 }
 
-/// Whether the viewer has heard of the end.
+/// Returns whether the viewer was told of the end.
 fn write_events(board: &Board, only: Option<usize>, to: &mut dyn Write) -> io::Result<bool> {
     to.write_all(b"HTTP/1.1 200 OK\r\nContent-Type: text/event-stream\r\n")?;
     to.write_all(b"Cache-Control: no-store\r\nTransfer-Encoding: chunked\r\n\r\n")?;
     to.flush()?;
     let mut reader = Reader::new(only);
     loop {
-        let events = board.wait_for(SILENCE, |state| reader.read(state)).unwrap_or_default();
+        let events = board.wait_for(KEEP_ALIVE, |state| reader.read(state)).unwrap_or_default();
         let text = if events.is_empty() { ":\n\n".to_owned() } else { encode(&events) };
         write!(to, "{:x}\r\n{text}\r\n", text.len())?;
         to.flush()?;

@@ -1,4 +1,4 @@
-//! The server over real sockets: what it gives, what it refuses, and viewers that are slow.
+//! The server over real sockets: what it serves, what it refuses, and slow viewers.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
 
@@ -49,35 +49,35 @@ fn ask(address: SocketAddr, method: &str, path: &str, host: &str) -> (u16, Strin
 /// A viewer's stream, with the framing of chunks.
 struct Stream {
     stream: TcpStream,
-    told: String,
+    received: String,
 }
 
 impl Stream {
     fn open(address: SocketAddr, path: &str) -> Stream {
         let request = format!("GET {path} HTTP/1.1\r\nHost: localhost\r\n\r\n");
-        Stream { stream: connect(address, &request), told: String::new() }
+        Stream { stream: connect(address, &request), received: String::new() }
     }
 
-    /// Reads until it is told so.
+    /// Reads until this text arrives.
     fn read_until(&mut self, text: &str) {
         let mut buffer = vec![0; 1 << 16];
         let mut searched = 0;
-        while !self.told[searched..].contains(text) {
-            searched = self.told.len().saturating_sub(text.len());
+        while !self.received[searched..].contains(text) {
+            searched = self.received.len().saturating_sub(text.len());
             let read = self.stream.read(&mut buffer).unwrap();
-            assert!(read > 0, "the stream breaks off");
-            self.told += std::str::from_utf8(&buffer[..read]).unwrap();
+            assert!(read > 0, "the stream ended early");
+            self.received += std::str::from_utf8(&buffer[..read]).unwrap();
         }
     }
 
-    /// What events carry.
+    /// The data of all events.
     fn data(&self) -> Vec<&str> {
-        self.told.lines().filter_map(|line| line.strip_prefix("data: ")).collect()
+        self.received.lines().filter_map(|line| line.strip_prefix("data: ")).collect()
     }
 }
 
 #[test]
-fn it_gives_its_own_files_and_nothing_else() {
+fn it_serves_its_own_files_and_nothing_else() {
     let (_, address) = start();
     let host = format!("127.0.0.1:{}", address.port());
     assert_eq!(ask(address, "GET", "/", &host), (200, "<h1>page</h1>".to_owned()));
@@ -110,27 +110,27 @@ fn it_gives_its_own_files_and_nothing_else() {
 }
 
 #[test]
-fn a_viewer_hears_of_a_run_from_its_beginning() {
+fn a_viewer_receives_a_run_from_its_beginning() {
     let (board, address) = start();
-    board.tell(4, "first".to_owned());
-    board.tell(4, "second".to_owned());
+    board.add(4, "first".to_owned());
+    board.add(4, "second".to_owned());
     let mut viewer = Stream::open(address, "/updates");
     viewer.read_until("second\n");
     let under_way = r#"{"ended":0,"under_way":[4]}"#;
     assert_eq!(viewer.data(), [under_way, "4", "first", "second"]);
-    board.tell(4, "third".to_owned());
+    board.add(4, "third".to_owned());
     board.end(4);
     viewer.read_until("event: end\ndata: 4\n");
-    assert!(viewer.data().contains(&"third"), "{}", viewer.told);
-    assert!(viewer.data().contains(&r#"{"ended":1,"under_way":[]}"#), "{}", viewer.told);
+    assert!(viewer.data().contains(&"third"), "{}", viewer.received);
+    assert!(viewer.data().contains(&r#"{"ended":1,"under_way":[]}"#), "{}", viewer.received);
     board.finish();
     viewer.read_until("event: finished\n");
     viewer.read_until("\r\n0\r\n\r\n");
 }
 
-/// Whoever tells goes on at once, whatever viewers do; the others miss nothing.
+/// The writer never waits for viewers, and viewers that read miss nothing.
 #[test]
-fn a_viewer_that_never_reads_holds_up_nobody() {
+fn a_viewer_that_never_reads_delays_nobody() {
     const PARTS: usize = 300;
     let (board, address) = start();
     let stalled = Stream::open(address, "/updates");
@@ -138,9 +138,9 @@ fn a_viewer_that_never_reads_holds_up_nobody() {
     while board.viewers() < 3 {
         std::thread::sleep(Duration::from_millis(5));
     }
-    // 30 MB: more than sockets hold. Nobody reads yet, and yet all is told.
+    // 30 MB, more than the buffers of sockets hold. Nobody reads yet, and the writer goes on.
     for part in 0..PARTS {
-        board.tell(0, format!("{part:05}{}", "x".repeat(100_000)));
+        board.add(0, format!("{part:05}{}", "x".repeat(100_000)));
     }
     board.end(0);
     viewers.iter_mut().for_each(|viewer| viewer.read_until("event: end\n"));

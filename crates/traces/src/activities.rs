@@ -1,8 +1,8 @@
-//! Numbers and names of what nodes do.
+//! Numbers and names of activities.
 
 use virtwall::{Activity, MessageKind};
 
-/// Every activity, in the order of their numbers from 0.
+/// Every activity, ordered by number.
 pub(crate) fn activities() -> impl Iterator<Item = Activity> {
     let sends = MessageKind::ALL.into_iter().map(Activity::Send);
     OTHERS.into_iter().chain(sends)
@@ -40,7 +40,7 @@ pub(crate) fn number(activity: Activity) -> usize {
     }
 }
 
-/// What an activity is called in a trace, where a message is not what is done with it.
+/// The name of an activity in a trace.
 pub(crate) fn name(activity: Activity) -> String {
     match activity {
         Activity::Send(kind) => format!("send {}", kind.name()),
@@ -53,7 +53,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_places() {
+    fn numbers_are_indices() {
         assert!(activities().map(number).eq(0..19));
     }
 }

@@ -1,31 +1,37 @@
-//! Recorded runs as files that trace viewers read: Perfetto, Pajé.
+//! Recorded runs as files for trace viewers: Perfetto and Pajé.
 //!
-//! Knows nothing of experiments or files: a [`Recording`] goes in, bytes come out. Times are virtual,
-//! to the nanosecond below.
+//! A [`Recording`] goes in, bytes come out. Times are virtual, in nanoseconds, rounded down.
 
+/// Numbers and names of activities.
 mod activities;
-mod lane;
+/// Perfetto's packets.
 mod packets;
+/// The Pajé format.
 mod paje;
+/// The Perfetto format.
 mod perfetto;
+/// The encoding of protocol buffers.
 mod protobuf;
+/// Which messages are shown.
 mod sample;
+/// The events of one node in the order of time.
+mod track;
 
 use virtwall::Recording;
 
 pub use sample::Sample;
 
-/// What a file is to be read by.
+/// The format of a trace file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// ui.perfetto.dev and trace_processor: track events as protocol buffers, deflated.
+    /// For ui.perfetto.dev and trace_processor: track events as protocol buffers, compressed.
     Perfetto,
-    /// pj_dump, ViTE and others: Pajé's self-defined text.
+    /// For pj_dump, ViTE and others: Pajé's self-describing text.
     Paje,
 }
 
 impl Format {
-    /// The usual ending of such files, without the dot.
+    /// The usual extension of such files, without the dot.
     pub fn extension(self) -> &'static str {
         match self {
             Format::Perfetto => "pftrace",
@@ -35,9 +41,9 @@ impl Format {
 
     /// The bytes of a file that shows a run under a title.
     ///
-    /// One lane a node: what it computes, its overheads and its paging; in Perfetto waiting is blank.
-    /// An arrow a message, from where it is sent to where it is read, with its bytes. Counters: the
-    /// length of each node's queue, the power unshot and in transit in W.
+    /// Each node has a track of its activities; in Perfetto waiting is blank. Each message is an arrow
+    /// from where it is sent to where it is read, with its bytes. Counters show the length of each node's
+    /// queue, and the unshot power and the power in transit in W.
     pub fn encode(self, recording: &Recording, title: &str, sample: Sample) -> Vec<u8> {
         match self {
             Format::Perfetto => perfetto::encode(recording, title, sample),

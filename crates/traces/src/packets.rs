@@ -1,5 +1,5 @@
-//! The packets of a Perfetto trace: deflated, each lane's in a sequence of its own, with times as
-//! differences.
+//! The packets of a Perfetto trace: compressed, each track's events in a sequence of their own, with times
+//! as differences.
 
 use std::io::Write as _;
 
@@ -9,8 +9,7 @@ use flate2::write::ZlibEncoder;
 
 use crate::protobuf::Fields;
 
-/// Numbers of the fields that are used, from Perfetto's `trace_packet.proto` and the files that it
-/// imports.
+/// Numbers of the fields in Perfetto's `trace_packet.proto` and the files that it imports.
 pub(crate) mod field {
     pub(crate) const TRACE_PACKET: u32 = 1;
 
@@ -59,11 +58,11 @@ pub(crate) mod field {
     pub(crate) const ANNOTATION_NUMBER: u32 = 3;
 }
 
-/// Bytes of packets that are deflated together.
+/// Bytes of packets that are compressed together.
 const CHUNK: usize = 1 << 18;
-/// The clock of whole traces.
+/// The clock of the whole trace.
 const BOOT_TIME: u64 = 6;
-/// A sequence's own clock, which counts from packet to packet.
+/// A sequence's own clock, whose times are differences from packet to packet.
 const OWN_CLOCK: u64 = 64;
 /// This packet begins a sequence.
 const STATE_CLEARED: u64 = 1;
@@ -114,7 +113,7 @@ impl Packets {
         Sequence { id, track, last: 0 }
     }
 
-    /// Describes a track by its number, name and parent, and what else `more` says of it.
+    /// Describes a track by its number, name, parent (0 for none), and the fields that `more` adds.
     pub(crate) fn track(
         &mut self,
         (number, parent): (u64, u64),
@@ -133,7 +132,7 @@ impl Packets {
         });
     }
 
-    /// An event of a sequence; they come in the order of time.
+    /// Adds an event to a sequence; events come in the order of time.
     pub(crate) fn event(
         &mut self,
         sequence: &mut Sequence,
@@ -152,22 +151,22 @@ impl Packets {
 
     /// The trace's bytes.
     pub(crate) fn finish(mut self) -> Vec<u8> {
-        self.deflate();
+        self.compress();
         self.written.0
     }
 
     fn packet(&mut self, write: impl FnOnce(&mut Fields)) {
         self.chunk.message(field::TRACE_PACKET, write);
         if self.chunk.0.len() >= CHUNK {
-            self.deflate();
+            self.compress();
         }
     }
 
-    fn deflate(&mut self) {
+    fn compress(&mut self) {
         let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
-        // Writing to memory does not fail; were it to, the packets would go as they are.
-        let deflated = encoder.write_all(&self.chunk.0).and_then(|()| encoder.finish());
-        match deflated {
+        // Writing to memory does not fail. If it did, the packets would be stored uncompressed.
+        let compressed = encoder.write_all(&self.chunk.0).and_then(|()| encoder.finish());
+        match compressed {
             Ok(bytes) => self.written.message(field::TRACE_PACKET, |packet| {
                 packet.bytes(field::PACKET_COMPRESSED, &bytes);
             }),

@@ -1,4 +1,4 @@
-//! A run as a Pajé trace: events in lines of text, in the order of time, after their own definitions.
+//! A run as a Pajé trace: definitions of events, then events as lines of text in the order of time.
 //!
 //! de Oliveira Stein, Chassin de Kergommeaux, Mounié: Pajé trace file format, 2003.
 
@@ -8,10 +8,10 @@ use desim::Time;
 use virtwall::{Activity, Recording};
 
 use crate::activities::{activities, name, number};
-use crate::lane::{Lane, Mail, Mark};
 use crate::sample::Sample;
+use crate::track::{Event, NodeMessages, Track};
 
-/// The events that are used, and their fields besides the number of the event.
+/// The events that the trace uses, and their fields after the event's number.
 const EVENTS: [(&str, &[&str]); 11] = [
     ("PajeDefineContainerType", &["Alias string", "Type string", "Name string"]),
     ("PajeDefineStateType", &["Alias string", "Type string", "Name string"]),
@@ -65,11 +65,11 @@ const END_LINK: usize = 8;
 const CREATE_CONTAINER: usize = 9;
 const DESTROY_CONTAINER: usize = 10;
 
-/// What comes after a node knows of the end.
+/// The state of a node that knows of the run's end.
 const ENDED: &str = "z";
 
 /// The types, by aliases: run R, node N; state S, queue Q, unshot power U, power in transit T, message
-/// L. The run and then the nodes are numbered from 1: 0 is no name for a container.
+/// L. The run and then the nodes are numbered from 1, since 0 means no container.
 const TYPES: &str = "0 R 0 Run
 0 N R Node
 1 S N Activity
@@ -84,8 +84,8 @@ const RUN: Alias = Alias(1);
 
 /// The file's text.
 ///
-/// An arrow is two lines, each of which must tell its time, type, containers, value and key: some 55 bytes
-/// with names of one or two letters and times to the nanosecond. States and variables come on top.
+/// An arrow is two lines with time, type, containers, value and key: some 55 bytes, with names of one or two
+/// letters and times in nanoseconds.
 pub(crate) fn encode(recording: &Recording, title: &str, sample: Sample) -> Vec<u8> {
     let mut text = definitions();
     let last = recording.nodes.len() - 1;
@@ -96,10 +96,10 @@ pub(crate) fn encode(recording: &Recording, title: &str, sample: Sample) -> Vec<
         let _ = writeln!(text, "{CREATE_CONTAINER} 0 {} N {RUN} \"{name}\"", node(rank));
     }
     let mut lines = Lines::default();
-    for (rank, mail) in Mail::of(recording).iter().enumerate() {
+    for (rank, numbers) in NodeMessages::of(recording).iter().enumerate() {
         let record = &recording.nodes[rank];
-        let lane = Lane { messages: &recording.messages, node: record, mail, sample };
-        states(&mut lines, &node(rank), &lane);
+        let track = Track { messages: &recording.messages, node: record, numbers, sample };
+        states(&mut lines, &node(rank), &track);
     }
     powers(&mut lines, recording);
     messages(&mut lines, recording, sample);
@@ -130,24 +130,23 @@ fn definitions() -> String {
     text
 }
 
-/// What a node does, and how many sources wait for it. What lasts is said once, where it begins: where one
-/// message ends and the next begins, their arrows say.
-fn states(lines: &mut Lines, container: &Alias, lane: &Lane) {
+/// The states of a node, and the length of its queue. Successive spans of one activity are one state.
+fn states(lines: &mut Lines, container: &Alias, track: &Track) {
     let mut last = None;
-    for (time, mark) in lane.marks(true) {
-        if let Mark::Begin(activity, _) = mark
+    for (time, event) in track.events(true) {
+        if let Event::Begin(activity, _) = event
             && last.replace(activity) != Some(activity)
         {
             let alias = alias(activity);
             lines.add(time, 0, format_args!("{SET_STATE} {} S {container} {alias}", Seconds(time)));
         }
     }
-    let end = lane.node.end();
+    let end = track.node.end();
     lines.add(end, 0, format_args!("{SET_STATE} {} S {container} {ENDED}", Seconds(end)));
     // Of several lengths at one time the last one lasts.
-    let lengths = lane.node.queue.chunk_by(|a, b| a.0 == b.0).filter_map(|at_once| at_once.last());
+    let lengths = track.node.queue.chunk_by(|a, b| a.0 == b.0).filter_map(|at_once| at_once.last());
     for (i, &(time, length)) in lengths.enumerate() {
-        if lane.sample.holds(i) {
+        if track.sample.holds(i) {
             let time_s = Seconds(time);
             lines.add(time, 1, format_args!("{SET_VARIABLE} {time_s} Q {container} {length}"));
         }
@@ -189,11 +188,11 @@ fn messages(lines: &mut Lines, recording: &Recording, sample: Sample) {
     }
 }
 
-/// Lines that are still to be put in the order of time.
+/// Lines that are to be sorted by time.
 #[derive(Default)]
 struct Lines {
     text: String,
-    /// Time, order at one time, where the line begins in the text and where it ends.
+    /// Time, order at one time, and where the line begins and ends in the text.
     index: Vec<(Time, u8, usize, usize)>,
 }
 
@@ -204,7 +203,7 @@ impl Lines {
         self.index.push((time, order, begin, self.text.len()));
     }
 
-    /// Writes the lines; returns the time of the last one.
+    /// Writes the lines in order; returns the time of the last one.
     fn write(mut self, to: &mut String) -> Time {
         self.index.sort_unstable();
         for &(_, _, begin, end) in &self.index {
@@ -214,7 +213,7 @@ impl Lines {
     }
 }
 
-/// A letter for an activity, and for the messages that it sends.
+/// The alias of an activity, and of the messages that it sends: a letter.
 fn alias(activity: Activity) -> char {
     (b'a' + number(activity) as u8) as char
 }
@@ -238,7 +237,7 @@ fn node(rank: usize) -> Alias {
     Alias(rank + 2)
 }
 
-/// A number as a short name, the lowest digit first.
+/// A number as a short name in base 62, the lowest digit first.
 #[derive(Clone, Copy)]
 struct Alias(usize);
 
@@ -256,7 +255,7 @@ impl fmt::Display for Alias {
     }
 }
 
-/// A time in seconds, to the nanosecond below, without zeros at the end.
+/// A time in seconds, rounded down to nanoseconds, without trailing zeros.
 struct Seconds(Time);
 
 impl fmt::Display for Seconds {
@@ -280,7 +279,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_two_names_are_alike() {
+    fn aliases_are_unique() {
         let names: BTreeSet<String> = (0..10_000).map(|n| Alias(n).to_string()).collect();
         assert_eq!(names.len(), 10_000);
         assert!(names.iter().all(|name| name.len() <= 3));

@@ -4,10 +4,10 @@ use desim::{Duration, Time};
 use virtwall::{Activity, EnergyAt, MessageRecord, Recording};
 
 use crate::activities::{activities, name, number};
-use crate::lane::{Lane, Mail, Mark};
 use crate::packets::{Packets, Sequence, field};
 use crate::protobuf::Fields;
 use crate::sample::Sample;
+use crate::track::{Event, NodeMessages, Track};
 
 /// Types of events.
 const BEGIN: u64 = 1;
@@ -15,16 +15,16 @@ const END: u64 = 2;
 const INSTANT: u64 = 3;
 const COUNTER: u64 = 4;
 
-/// The children of a track stand in the order of their ranks.
+/// The children of a track are ordered by rank.
 const BY_RANK: u64 = 3;
 
 /// The track that holds all others.
 const RUN: u64 = 1;
 
-/// The categories that an activity can belong to.
+/// The categories of activities.
 const CATEGORIES: [&str; 3] = ["compute", "overhead", "paging"];
 
-/// What is said of an event besides its name.
+/// Annotations of events.
 #[derive(Clone, Copy)]
 enum Note {
     Bytes,
@@ -51,30 +51,30 @@ pub(crate) fn encode(recording: &Recording, title: &str, sample: Sample) -> Vec<
     packets.track((RUN, 0), &sample.caption(title), ordered);
     power(&mut packets, 2, "unshot power", recording, |energy| energy.unshot);
     power(&mut packets, 3, "power in transit", recording, |energy| energy.in_transit);
-    for (rank, mail) in Mail::of(recording).iter().enumerate() {
+    for (rank, numbers) in NodeMessages::of(recording).iter().enumerate() {
         let node = &recording.nodes[rank];
-        let lane = Lane { messages: &recording.messages, node, mail, sample };
-        write_lane(&mut packets, rank, &lane, rank + 1 == recording.nodes.len());
+        let track = Track { messages: &recording.messages, node, numbers, sample };
+        write_track(&mut packets, rank, &track, rank + 1 == recording.nodes.len());
     }
     packets.finish()
 }
 
-/// A node's lane, and below it the length of its queue.
-fn write_lane(packets: &mut Packets, rank: usize, lane: &Lane, is_service_node: bool) {
+/// A node's track, and below it the length of its queue.
+fn write_track(packets: &mut Packets, rank: usize, node: &Track, is_service_node: bool) {
     let track = 10 + 2 * rank as u64;
     let name = if is_service_node { "service node".to_owned() } else { format!("node {rank}") };
     packets.track((track, RUN), &name, |track| track.number(field::TRACK_RANK, rank as u64 + 10));
     let mut sequence = packets.sequence(track, intern);
-    let mut shots = lane.node.shots.iter().peekable();
-    for (time, mark) in lane.marks(false) {
-        packets.event(&mut sequence, time, |event| match mark {
-            Mark::End => event.number(field::EVENT_TYPE, END),
-            Mark::Begin(activity, numbers) => {
+    let mut shots = node.node.shots.iter().peekable();
+    for (time, kind) in node.events(false) {
+        packets.event(&mut sequence, time, |event| match kind {
+            Event::End => event.number(field::EVENT_TYPE, END),
+            Event::Begin(activity, numbers) => {
                 begin(event, activity);
-                let numbers = numbers.iter().filter(|&&number| lane.sample.holds(number));
+                let numbers = numbers.iter().filter(|&&number| node.sample.holds(number));
                 match activity {
                     Activity::LocalShot | Activity::ReceivedShot => {
-                        // A wall patch shoots all its bins at once: the first one stands for them.
+                        // A wall patch shoots all its directions at once: the first one represents them.
                         while shots.next_if(|shot| shot.at <= time).is_some() {}
                         if let Some(shot) = shots.peek() {
                             note(event, Note::Environment, shot.environment.into());
@@ -82,29 +82,29 @@ fn write_lane(packets: &mut Packets, rank: usize, lane: &Lane, is_service_node: 
                             note(event, Note::Patch, shot.patch.into());
                         }
                     }
-                    Activity::Send(_) => numbers.for_each(|&n| depart(event, lane.messages, n)),
+                    Activity::Send(_) => numbers.for_each(|&n| depart(event, node.messages, n)),
                     _ => numbers.for_each(|&n| event.fixed(field::EVENT_LAST_FLOW, n as u64)),
                 }
             }
-            Mark::Sent(number) => {
+            Event::Sent(number) => {
                 event.number(field::EVENT_TYPE, INSTANT);
-                let kind = lane.messages[number].kind;
+                let kind = node.messages[number].kind;
                 event.number(field::EVENT_NAME, name_id(Activity::Send(kind)));
-                depart(event, lane.messages, number);
+                depart(event, node.messages, number);
             }
-            Mark::Read(number) => {
+            Event::Read(number) => {
                 event.number(field::EVENT_TYPE, INSTANT);
                 event.number(field::EVENT_NAME, name_id(Activity::Receive));
                 event.fixed(field::EVENT_LAST_FLOW, number as u64);
             }
         });
     }
-    write_queue(packets, &sequence, lane);
+    write_queue(packets, &sequence, node);
 }
 
-fn write_queue(packets: &mut Packets, parent: &Sequence, lane: &Lane) {
-    let changes = lane.node.queue.iter().enumerate();
-    let mut changes = changes.filter(|&(i, _)| lane.sample.holds(i)).peekable();
+fn write_queue(packets: &mut Packets, parent: &Sequence, node: &Track) {
+    let changes = node.node.queue.iter().enumerate();
+    let mut changes = changes.filter(|&(i, _)| node.sample.holds(i)).peekable();
     if changes.peek().is_none() {
         return;
     }
@@ -119,7 +119,7 @@ fn write_queue(packets: &mut Packets, parent: &Sequence, lane: &Lane) {
     }
 }
 
-/// A power of the whole run, W, where it changes.
+/// A counter of a power of the whole run, W.
 fn power(
     packets: &mut Packets,
     track: u64,
@@ -134,7 +134,7 @@ fn power(
     let mut sequence = packets.sequence(track, |_| ());
     let mut last = None;
     for energy in &recording.energy {
-        // Single precision is more than is seen, and half as long when deflated.
+        // Single precision is precise enough, and half as long when compressed.
         let value = f64::from(of(energy) as f32);
         if last.replace(value) != Some(value) {
             packets.event(&mut sequence, energy.at, |event| {
@@ -162,7 +162,7 @@ fn begin(event: &mut Fields, activity: Activity) {
     event.number(field::EVENT_CATEGORY, category);
 }
 
-/// A message begins its way.
+/// A message is sent: its annotations, and the beginning of its arrow.
 fn depart(event: &mut Fields, messages: &[MessageRecord], number: usize) {
     let message = &messages[number];
     note(event, Note::Bytes, message.bytes.into());
@@ -179,12 +179,12 @@ fn note(event: &mut Fields, note: Note, value: u64) {
     });
 }
 
-/// The number of an activity's name; 0 is none's.
+/// The number of an activity's name; 0 means no name.
 fn name_id(activity: Activity) -> u64 {
     number(activity) as u64 + 1
 }
 
-/// Names that the events of a lane have in common.
+/// Names that the events of a track refer to by number.
 fn intern(data: &mut Fields) {
     let mut entry = |kind: u32, id: u64, name: &str| {
         data.message(kind, |entry| {

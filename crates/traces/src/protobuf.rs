@@ -1,17 +1,17 @@
-//! Protocol buffers, as much of them as is written here.
+//! The encoding of protocol buffers, as far as traces need it.
 
-/// Bytes of a message, field after field.
+/// A message: its fields, encoded.
 #[derive(Default)]
 pub(crate) struct Fields(pub(crate) Vec<u8>);
 
 impl Fields {
-    /// An unsigned number, a Boolean or an enumeration.
+    /// An unsigned integer, a Boolean or an enumeration.
     pub(crate) fn number(&mut self, field: u32, value: u64) {
         self.tag(field, 0);
         self.varint(value);
     }
 
-    /// A number of eight bytes.
+    /// An integer of eight bytes.
     pub(crate) fn fixed(&mut self, field: u32, value: u64) {
         self.tag(field, 1);
         self.0.extend(value.to_le_bytes());
@@ -35,7 +35,7 @@ impl Fields {
         self.0.push(0);
         write(self);
         let length = (self.0.len() - at - 1) as u64;
-        // Nearly all are short enough for a length of one byte.
+        // Nearly all lengths fit one byte.
         match u8::try_from(length) {
             Ok(short) if short < 0x80 => self.0[at] = short,
             _ => {
@@ -63,7 +63,7 @@ impl Fields {
 mod tests {
     use super::*;
 
-    /// The examples of the protocol buffers' own description of their encoding.
+    /// The examples in the documentation of the encoding.
     #[test]
     fn bytes_are_as_described() {
         let mut fields = Fields::default();

@@ -1,7 +1,7 @@
-//! How much of a run a trace shows.
+//! Which messages of a run a trace shows.
 
-/// Of the messages of a run one in so many; of all else, everything but the overheads and the lengths
-/// of queues that go with the messages left out.
+/// One message in a number of messages. With a message its overhead and its change of a queue are left out;
+/// all else is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sample(u32);
 
@@ -19,12 +19,12 @@ impl Sample {
         self == Sample::ALL
     }
 
-    /// Whether the thing of this number is shown.
+    /// Whether the message or change of this number is shown.
     pub(crate) fn holds(self, number: usize) -> bool {
         number.is_multiple_of(self.0 as usize)
     }
 
-    /// The title of what is shown so.
+    /// The title of a trace, with the sampling.
     pub(crate) fn caption(self, title: &str) -> String {
         match self.0 {
             1 => title.to_owned(),

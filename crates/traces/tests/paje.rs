@@ -1,4 +1,4 @@
-//! Pajé traces: read by pj_dump where it is installed (Debian's pajeng), and line by line anyway.
+//! Pajé traces, read by pj_dump where it is installed (Debian's pajeng), and line by line.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
 
@@ -21,7 +21,7 @@ fn trace(sample: Sample) -> (Outcome, Recording, String) {
     (outcome, recording, text)
 }
 
-/// What pj_dump makes of a trace, by cells; none where it is not installed.
+/// The cells that pj_dump prints of a trace; none where it is not installed.
 fn pj_dump(text: &str) -> Option<Vec<Vec<String>>> {
     let mut command = Command::new("pj_dump");
     command.args(["--user-defined", "--float-precision=9"]);
@@ -116,7 +116,7 @@ fn lines_are_in_order() {
     }
 }
 
-/// The bound, for a message's arrow; states come on top of it.
+/// The size of the arrow of a message; states are not counted.
 #[test]
 fn a_message_takes_at_most_64_bytes() {
     let (_, recording, text) = trace(Sample::ALL);

@@ -1,5 +1,4 @@
-//! Perfetto traces, read again by an independent decoder of protocol buffers: what stands in them is
-//! what the run counted.
+//! Perfetto traces, read by an independent decoder of protocol buffers: they show what the run counted.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
 
@@ -20,7 +19,7 @@ fn node(rank: usize) -> String {
     if rank == PROCESSORS { "service node".to_owned() } else { format!("node {rank}") }
 }
 
-/// The time of spans that `wanted` holds of, on one node, in ns; each rounds by less than one.
+/// Whether times in ns agree, if each of `spans` was rounded by less than 1 ns.
 fn close(found: u64, exact: desim::Duration, spans: usize) -> bool {
     found.abs_diff(exact.as_ps() / 1_000) <= spans as u64
 }
@@ -121,7 +120,7 @@ fn samples_leave_messages_out() {
     assert!(all.tracks.contains(&"a test".to_owned()));
 }
 
-/// The bound, for the whole file.
+/// The size of the whole file.
 #[test]
 fn a_message_takes_at_most_64_bytes() {
     let machine = paragon();

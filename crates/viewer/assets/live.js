@@ -1,6 +1,6 @@
-// A page that follows runs while they are under way.
+// The viewer of a page that follows runs while they are under way.
 
-const MOST_SHARE = 0.3; // of the browser's time, for what is new
+const MOST_SHARE = 0.3; // of the browser's time, for showing updates
 
 class LiveViewer extends Viewer {
   constructor(index) {
@@ -11,33 +11,33 @@ class LiveViewer extends Viewer {
     byId("energy").closest("figure").className = "panel wide-panel";
     byId("critical").closest("label").hidden = true;
     byId("colour").querySelector("[value=missing]").remove();
-    this.tellButton();
+    this.showButton();
     this.connect("");
   }
 
-  /** Follows one run, or whichever is under way. */
+  /** Follows one run (`?run=N`) or, without a query, any run under way. */
   connect(query) {
     this.source?.close();
-    this.chosen = query !== "";
-    this.deaf = false;
-    // Parts are unpacked one after the other.
+    this.selected = query !== "";
+    this.detached = false;
+    // Parts are unpacked in order.
     this.work = Promise.resolve();
     const source = (this.source = new EventSource(this.index.updates + query));
     const on = (name, act) =>
       source.addEventListener(name, ({ data }) => {
         this.work = this.work.then(() => this.source === source && act(data)).catch((error) => this.say(error.message));
       });
-    on("runs", (data) => this.tellRuns(JSON.parse(data)));
+    on("runs", (data) => this.showRuns(JSON.parse(data)));
     on("begin", (data) => this.begin(Number(data)));
     on("part", (data) => this.part(data));
-    on("cut", () => this.say("This run is too large to be followed further here: what is shown ends before it does."));
+    on("cut", () => this.say("This run is too large for the page to follow further: what is shown stops before its end."));
     on("end", (data) => this.ended(Number(data)));
     source.addEventListener("finished", () => this.finished().catch((error) => this.say(error.message)));
-    source.addEventListener("error", () => this.say("No connection to the simulation. What is shown is what it has told so far."));
+    source.addEventListener("error", () => this.say("No connection to the simulation. What is shown is what was received so far."));
   }
 
   async begin(number) {
-    if (this.deaf) return;
+    if (this.detached) return;
     this.live = new LiveRun(this.index.runs[number], await this.scene(this.index.runs[number].scene));
     this.number = number;
     byId("run").value = String(number);
@@ -47,12 +47,12 @@ class LiveViewer extends Viewer {
   }
 
   async part(data) {
-    if (this.deaf) return;
+    if (this.detached) return;
     this.live.add(await inflate(data));
     this.show();
   }
 
-  /** Shows what is new, unless more has come meanwhile and it takes long. */
+  /** Shows what is new, but not so often that it takes most of the browser's time. */
   show() {
     if (this.pending) return;
     this.pending = true;
@@ -64,7 +64,7 @@ class LiveViewer extends Viewer {
     }, this.rest || 0);
   }
 
-  /** The run has grown; whoever looks at its last instant goes on with it. */
+  /** Shows the run with its new parts, at its new end unless the page is paused. */
   grow() {
     const { state, live } = this;
     if (!(live.end > 0)) return;
@@ -76,21 +76,21 @@ class LiveViewer extends Viewer {
     if (!this.playing) return state.set({ grown: true });
     const [from, to] = state.window;
     const fields = { grown: true, time: live.end };
-    // All of the run stays in sight if it was.
+    // A timeline that showed the whole run goes on showing it.
     if (from === 0 && to >= state.time) fields.window = [0, live.end];
     state.set(state.light.goTo(live.end) ? { ...fields, light: state.light } : fields);
   }
 
   ended(number) {
-    if (this.deaf) return;
+    if (this.detached) return;
     this.grow();
     byId("viewer").dataset.ended = number;
-    // What stands still stays, whatever else begins.
-    if (!this.playing) this.deaf = true;
-    else if (this.chosen) this.connect("");
+    // A paused page keeps the run that it shows.
+    if (!this.playing) this.detached = true;
+    else if (this.selected) this.connect("");
   }
 
-  /** What is served now is the report: it is fetched at once, since nobody knows for how long. */
+  /** All runs have ended, and the server now has the report. It is fetched at once, since the server may stop soon. */
   async finished() {
     this.source.close();
     this.report = await (await fetch("")).text();
@@ -99,17 +99,17 @@ class LiveViewer extends Viewer {
     this.say("All runs have ended. Press Live to see the report.");
   }
 
-  /** The page becomes the report. */
+  /** Replaces the page by the report. */
   toReport() {
     document.open();
     document.write(this.report);
     document.close();
   }
 
-  tellRuns({ ended, under_way }) {
+  showRuns({ ended, under_way }) {
     this.say(
       `Under way: ${under_way.length} of ${count(this.index.runs.length, "run")}, ${ended} ended. ` +
-      "What is shown is what has happened so far; the page becomes the report when all have ended.");
+      "The page shows what has happened so far. When all runs have ended, it becomes the report.");
     for (const option of byId("run").options) {
       option.disabled = !under_way.includes(Number(option.value)) && Number(option.value) !== this.number;
     }
@@ -119,15 +119,15 @@ class LiveViewer extends Viewer {
     byId("sampled").textContent = text;
   }
 
-  tellButton() {
+  showButton() {
     byId("play").textContent = this.playing ? "Pause" : "Live";
     byId("play").setAttribute("aria-pressed", !this.playing);
   }
 
-  /** The run that is chosen, from its beginning. */
+  /** Follows a selected run from its beginning. */
   async open(number) {
     this.playing = true;
-    this.tellButton();
+    this.showButton();
     this.connect(`?run=${number}`);
   }
 
@@ -137,17 +137,17 @@ class LiveViewer extends Viewer {
 
   update(names) {
     super.update(names.has("grown") ? new Set([...names, "time"]) : names);
-    // Whoever goes back in time stays there.
+    // Going back in time pauses.
     if (this.playing && names.has("time") && this.state.time < this.state.run.end) this.play(false);
   }
 
-  /** The page goes on, or stands still; the simulation knows nothing of it. */
+  /** Follows the run, or pauses the page; the simulation goes on either way. */
   play(on) {
     if (this.report) return this.toReport();
     this.playing = on;
-    this.tellButton();
+    this.showButton();
     if (!on || !this.state.run) return;
-    if (this.deaf) this.connect("");
+    if (this.detached) this.connect("");
     else this.state.goTo(this.state.run.end);
   }
 }

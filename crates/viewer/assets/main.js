@@ -1,6 +1,6 @@
-// Puts the page together: one run, one slider, one play button.
+// The viewer: loads runs, and controls the time with a slider and a play button.
 
-const PLAY_SECONDS = 20; // for the time in sight
+const PLAY_SECONDS = 20; // for the time that the timeline shows
 
 class Viewer {
   constructor(index) {
@@ -10,10 +10,10 @@ class Viewer {
     this.state = new State();
     new LightPanel(this.state);
     new Tree(this.state);
-    new Mesh(this.state);
+    new MachinePanel(this.state);
     new Timeline(this.state);
     new Charts(this.state, this);
-    new Nodes(this.state);
+    new NodeTable(this.state);
     this.state.onChange((names) => this.update(names));
     this.controls();
   }
@@ -50,7 +50,7 @@ class Viewer {
     return this.runs.get(number);
   }
 
-  /** All runs that differ from one in the number of processors alone, read one by one. */
+  /** All runs that differ from this one only in the number of processors, loaded one by one. */
   async siblings(run) {
     const runs = [];
     for (let i = 0; i < this.index.runs.length; i++) {
@@ -71,7 +71,7 @@ class Viewer {
 
   update(names) {
     const { state } = this;
-    if (!["time", "choice", "window"].some((name) => names.has(name))) return;
+    if (!["time", "selection", "window"].some((name) => names.has(name))) return;
     const { run, time, window: [from, to] } = state;
     const slider = byId("time");
     if (document.activeElement !== slider || Math.abs(slider.value - (1000 * time) / run.end) >= 1) {
@@ -84,17 +84,17 @@ class Viewer {
   }
 
   status() {
-    const { run, time, choiceName } = this.state;
+    const { run, time, selectionName } = this.state;
     let [local, received, busy] = [0, 0, 0];
     const done = upperBound(run.shotEnds, time);
-    for (let i = 0; i < done; i++) run.spans.kinds[run.shots[i]] === LOCAL ? local++ : received++;
+    for (let i = 0; i < done; i++) run.spans.states[run.shots[i]] === LOCAL ? local++ : received++;
     for (let node = 0; node < run.computeNodes; node++) busy += run.busyUntil(node, time);
     const share = time > 0 ? (100 * busy) / (run.computeNodes * time) : 0;
-    return `Shown: ${choiceName}. Until now ${count(local, "local shot")}, ${count(received, "received shot")}; ` +
+    return `Shown: ${selectionName}. Until now ${count(local, "local shot")}, ${count(received, "received shot")}; ` +
       `nodes computed ${share.toFixed(1)} % of the time.`;
   }
 
-  /** To the end of the previous or next shot of what is chosen. */
+  /** To the end of the previous (`by` -1) or next (1) shot. */
   jump(by) {
     const { state } = this;
     const { run } = state;
@@ -124,40 +124,3 @@ class Viewer {
     requestAnimationFrame(frame);
   }
 }
-
-/** The nodes as a table, while it is open. */
-class Nodes {
-  constructor(state) {
-    this.state = state;
-    state.onChange((names) => {
-      if (names.has("time") || names.has("run")) this.fill();
-    });
-    byId("node-details").addEventListener("toggle", () => this.fill());
-  }
-
-  fill() {
-    const { run, time } = this.state;
-    if (!run || !byId("node-details").open) return;
-    const rows = Array.from({ length: run.computeNodes }, (_, node) => {
-      const span = run.spanAt(node, time);
-      const { queue, memory } = run.queueAt(node, time);
-      const share = time > 0 ? (100 * run.busyUntil(node, time)) / time : 0;
-      const [from, to] = [run.spans.starts[node], run.spans.starts[node + 1]];
-      const shots = [0, 0];
-      for (let i = from; i < to && run.spans.to[i] <= time; i++) if (run.spans.kinds[i] <= RECEIVED) shots[run.spans.kinds[i]]++;
-      const does = span < 0 ? "waits" : DOING[run.spans.kinds[span]].name;
-      return [node, does, `${share.toFixed(1)} %`, queue, memory ? bytes(memory) : "–", ...shots];
-    });
-    byId("nodes").tBodies[0].replaceChildren(...rows.map((cells) => {
-      const row = document.createElement("tr");
-      cells.forEach((cell, i) => {
-        const field = row.insertCell();
-        field.textContent = cell;
-        if (i === 1) field.className = "text";
-      });
-      return row;
-    }));
-  }
-}
-
-const count = (number, name) => `${number.toLocaleString("en")} ${name}${number === 1 ? "" : "s"}`;

@@ -1,5 +1,4 @@
-//! A run while it is under way: what a page is told of it, part by part. Their reader is
-//! `assets/live-run.js`.
+//! Packs a run in parts while it is under way. `assets/data/live-run.js` reads them.
 
 use std::collections::BTreeMap;
 
@@ -8,157 +7,149 @@ use multicomputer::{Rank, Stall};
 use radiosity::{Rgb, Shot};
 use virtwall::{Activity, Observer, Problem, SentMessage, ShotKey, Source, Span};
 
-use crate::columns::Columns;
-use crate::film::{Beam, Doing};
-use crate::run::ns;
-use crate::scene::{beam_columns, fine_unit};
+use crate::pack::{
+    Columns, Emitters, MessageRow, fine_unit, message_columns, nanoseconds, shot_columns,
+};
+use crate::record::{NodeState, RecordedShot};
 
-/// Who a run is broadcast to. Both are asked by the thread that simulates, and have to answer at once.
-pub trait Audience {
-    /// Whether it is time for another part; asked after every shot.
+/// Receives the parts of a run. Called on the thread that simulates, which waits for the answer.
+pub trait Subscriber {
+    /// Whether another part is due; asked after every shot.
     fn is_due(&mut self) -> bool;
 
     /// A part of the run: what happened since the part before it.
     fn receive(&mut self, part: String);
 }
 
-/// An observer that tells of a run as it goes, and remembers nothing that was told but which shots and
-/// sources the page knows.
+/// An observer that passes a run on in parts. Of what it has passed on it keeps only which shots and
+/// emitters the page knows.
 pub struct Broadcast {
-    audience: Box<dyn Audience>,
-    /// The form factor that counts one.
+    subscriber: Box<dyn Subscriber>,
+    /// The unit of form factors.
     unit: f64,
     now: Time,
     /// By rank.
-    lanes: Vec<Lane>,
+    nodes: Vec<Node>,
     known_shots: BTreeMap<ShotKey, u64>,
-    known_sources: BTreeMap<((u32, u32), [u64; 3]), u64>,
+    emitters: Emitters,
     under_way: BTreeMap<u64, (Time, SentMessage)>,
-    news: News,
+    /// What happened since the last part, besides spans.
+    shots: Vec<NewShot>,
+    hits: Vec<RecordedShot>,
+    messages: Vec<MessageRow>,
 }
 
-/// What a node is up to.
+/// The current state of a node.
 #[derive(Clone, Default)]
-struct Lane {
-    /// What it did since the last part, but for waiting.
+struct Node {
+    /// What it did since the last part, without waiting.
     spans: Vec<Span>,
-    /// The end of the last span that was told, nanoseconds.
-    told: u64,
-    /// What it has chosen and not shot yet, and since when.
-    chosen: Option<(Doing, Time)>,
-    /// The time in kernels for what it has chosen.
+    /// The end of the last span that was passed on, nanoseconds.
+    passed_on: u64,
+    /// What it has selected and not shot yet, and since when.
+    selected: Option<(NodeState, Time)>,
+    /// The time in kernels so far for what it has selected.
     shooting: Option<Span>,
     queue: u64,
-    /// Of its queue, when it chose.
+    /// The length of its queue when it selected.
     queue_left: u64,
+    /// Bytes.
     memory: u64,
 }
 
-/// What happened since the last part, besides spans.
-#[derive(Default)]
-struct News {
-    shots: Vec<ShotNews>,
-    beams: Vec<Beam>,
-    sources: Vec<((u32, u32), Rgb)>,
-    /// Messages that have arrived: when they were sent, and when they came.
-    messages: Vec<(Time, Time, SentMessage)>,
-}
-
-struct ShotNews {
+struct NewShot {
     rank: Rank,
     number: u64,
-    source: u64,
+    emitter: u64,
     queue: u64,
     memory: u64,
 }
 
 impl Broadcast {
-    /// Of a run of a problem on so many processors.
+    /// Of a run on `processors` compute nodes.
     pub fn new(
         problem: &Problem,
         processors: usize,
-        audience: impl Audience + 'static,
+        subscriber: impl Subscriber + 'static,
     ) -> Broadcast {
         Broadcast {
-            audience: Box::new(audience),
+            subscriber: Box::new(subscriber),
             unit: fine_unit(problem),
             now: Time::ZERO,
-            lanes: vec![Lane::default(); processors + 1],
+            nodes: vec![Node::default(); processors + 1],
             known_shots: BTreeMap::new(),
-            known_sources: BTreeMap::new(),
+            emitters: Emitters::default(),
             under_way: BTreeMap::new(),
-            news: News::default(),
+            shots: Vec::new(),
+            hits: Vec::new(),
+            messages: Vec::new(),
         }
     }
 
-    /// Tells what has not been told yet.
-    pub fn tell(&mut self) {
+    /// Passes on what has not been passed on yet.
+    pub fn flush(&mut self) {
         let part = self.part().pack();
-        self.audience.receive(part);
+        self.subscriber.receive(part);
     }
 
     fn part(&mut self) -> Columns {
-        let news = std::mem::take(&mut self.news);
         let mut columns = Columns::default();
-        columns.ints([ns(self.now)]);
-        self.spans(&mut columns);
-        let shots = || news.shots.iter();
-        columns.ints(shots().map(|shot| shot.rank as u64));
-        columns.ints(shots().map(|shot| shot.number));
-        columns.ints(shots().map(|shot| shot.source));
-        columns.ints(shots().map(|shot| shot.queue));
-        columns.ints(shots().map(|shot| shot.memory));
-        columns.ints(news.sources.iter().map(|((environment, _), _)| u64::from(*environment)));
-        columns.ints(news.sources.iter().map(|((_, patch), _)| u64::from(*patch)));
-        columns.floats(news.sources.iter().flat_map(|(_, power)| power.to_array()));
-        beam_columns(&news.beams.iter().collect::<Vec<_>>(), self.unit, &mut columns);
-        let messages = || news.messages.iter();
-        columns.steps(messages().map(|(sent, ..)| ns(*sent) as i64));
-        columns.ints(messages().map(|(sent, arrived, _)| ns(*arrived) - ns(*sent)));
-        columns.ints(messages().map(|(.., message)| message.from as u64));
-        columns.ints(messages().map(|(.., message)| message.to as u64));
-        columns.ints(messages().map(|(.., message)| message.kind as u64));
-        columns.ints(messages().map(|(.., message)| message.bytes));
+        columns.ints([nanoseconds(self.now)]);
+        self.span_columns(&mut columns);
+        let shots = std::mem::take(&mut self.shots);
+        columns.ints(shots.iter().map(|shot| shot.rank as u64));
+        columns.ints(shots.iter().map(|shot| shot.number));
+        columns.ints(shots.iter().map(|shot| shot.emitter));
+        columns.ints(shots.iter().map(|shot| shot.queue));
+        columns.ints(shots.iter().map(|shot| shot.memory));
+        self.emitters.columns(&mut columns);
+        let hits = std::mem::take(&mut self.hits);
+        shot_columns(&hits.iter().collect::<Vec<_>>(), self.unit, &mut columns);
+        message_columns(&std::mem::take(&mut self.messages), &mut columns);
         columns
     }
 
-    /// What nodes did since the last part, and what they are doing: 1 more than its number, or 0 where
+    /// What nodes did since the last part, and what they do now: the state's number plus 1, or 0 where
     /// they wait.
-    fn spans(&mut self, columns: &mut Columns) {
-        let (mut gaps, mut lengths, mut kinds) = (Vec::new(), Vec::new(), Vec::new());
-        columns.ints(self.lanes.iter().map(|lane| lane.spans.len() as u64));
-        for lane in &mut self.lanes {
-            for span in std::mem::take(&mut lane.spans) {
-                gaps.push(ns(span.from).saturating_sub(lane.told));
-                lengths.push(ns(span.to) - ns(span.from));
-                kinds.push(Doing::of(span.activity) as u64);
-                lane.told = ns(span.to);
+    fn span_columns(&mut self, columns: &mut Columns) {
+        let (mut gaps, mut lengths, mut states) = (Vec::new(), Vec::new(), Vec::new());
+        columns.ints(self.nodes.iter().map(|node| node.spans.len() as u64));
+        for node in &mut self.nodes {
+            for span in std::mem::take(&mut node.spans) {
+                let (from, to) = (nanoseconds(span.from), nanoseconds(span.to));
+                gaps.push(from.saturating_sub(node.passed_on));
+                lengths.push(to - from);
+                states.push(NodeState::of(span.activity) as u64);
+                node.passed_on = to;
             }
         }
-        columns.ints(kinds);
+        columns.ints(states);
         columns.ints(gaps);
         columns.ints(lengths);
-        let chosen = || self.lanes.iter().map(|lane| lane.chosen);
-        columns.ints(chosen().map(|chosen| chosen.map_or(0, |(doing, _)| doing as u64 + 1)));
-        columns.ints(chosen().map(|chosen| chosen.map_or(0, |(_, since)| ns(since))));
+        let selected = || self.nodes.iter().map(|node| node.selected);
+        columns.ints(selected().map(|selected| selected.map_or(0, |(state, _)| state as u64 + 1)));
+        columns
+            .ints(selected().map(|selected| selected.map_or(0, |(_, since)| nanoseconds(since))));
     }
 }
 
 impl Observer for Broadcast {
     fn activity(&mut self, rank: Rank, activity: Activity, from: Time, to: Time) {
         // The run's time is that of its compute nodes.
-        if rank + 1 < self.lanes.len() {
+        if rank + 1 < self.nodes.len() {
             self.now = self.now.max(to);
         }
-        let lane = &mut self.lanes[rank];
+        let node = &mut self.nodes[rank];
         match activity {
-            // With its shot, which is told of when all its kernels have run.
+            // Passed on when all kernels of the shot have run.
             Activity::LocalShot | Activity::ReceivedShot => {
-                let from = lane.shooting.map_or(from, |earlier| earlier.from);
-                lane.shooting = Some(Span { activity, from, to });
+                let from = node.shooting.map_or(from, |earlier| earlier.from);
+                node.shooting = Some(Span { activity, from, to });
             }
             Activity::Wait => {}
-            _ if ns(to) > ns(from) => lane.spans.push(Span { activity, from, to }),
+            _ if nanoseconds(to) > nanoseconds(from) => {
+                node.spans.push(Span { activity, from, to });
+            }
             _ => {}
         }
     }
@@ -168,48 +159,45 @@ impl Observer for Broadcast {
     }
 
     fn arrived(&mut self, now: Time, number: u64, _: &[Stall]) {
-        let message = self.under_way.remove(&number);
-        self.news.messages.extend(message.map(|(sent, message)| (sent, now, message)));
+        let Some((sent, message)) = self.under_way.remove(&number) else { return };
+        let SentMessage { from, to, kind, bytes, .. } = message;
+        let times = [sent, now].map(nanoseconds);
+        self.messages.push([times[0], times[1], from as u64, to as u64, kind as u64, bytes]);
     }
 
     fn selected(&mut self, now: Time, rank: Rank, source: &Source) {
-        let lane = &mut self.lanes[rank];
-        lane.chosen = Some((Doing::of(activity_of(source)), now));
-        lane.queue_left = lane.queue;
+        let node = &mut self.nodes[rank];
+        node.selected = Some((NodeState::of(activity_of(source)), now));
+        node.queue_left = node.queue;
     }
 
     fn shot(&mut self, now: Time, rank: Rank, source: &Source, shot: &Shot, _: Rgb) {
         self.now = self.now.max(now);
-        let lane = &mut self.lanes[rank];
+        let node = &mut self.nodes[rank];
         // Kernels that take no time leave no span.
         let instant = Span { activity: activity_of(source), from: now, to: now };
-        lane.spans.push(lane.shooting.take().unwrap_or(instant));
-        lane.chosen = None;
-        let beam = Beam::of(source, shot);
-        let power = beam.power.to_array().map(f64::to_bits);
-        let fresh = self.known_sources.len() as u64;
-        let emitter = *self.known_sources.entry((beam.source, power)).or_insert(fresh);
-        if emitter == fresh {
-            self.news.sources.push((beam.source, beam.power));
+        node.spans.push(node.shooting.take().unwrap_or(instant));
+        node.selected = None;
+        let shot = RecordedShot::of(source, shot);
+        let next = self.known_shots.len() as u64;
+        let number = *self.known_shots.entry(shot.key).or_insert(next);
+        let emitter = self.emitters.number(shot.emitter, shot.power);
+        let (queue, memory) = (node.queue_left, node.memory);
+        self.shots.push(NewShot { rank, number, emitter, queue, memory });
+        if number == next {
+            self.hits.push(shot);
         }
-        let fresh = self.known_shots.len() as u64;
-        let number = *self.known_shots.entry(beam.key).or_insert(fresh);
-        if number == fresh {
-            self.news.beams.push(beam);
-        }
-        let (queue, memory) = (lane.queue_left, lane.memory);
-        self.news.shots.push(ShotNews { rank, number, source: emitter, queue, memory });
-        if self.audience.is_due() {
-            self.tell();
+        if self.subscriber.is_due() {
+            self.flush();
         }
     }
 
     fn queue(&mut self, _: Time, rank: Rank, length: usize) {
-        self.lanes[rank].queue = length as u64;
+        self.nodes[rank].queue = length as u64;
     }
 
     fn memory(&mut self, _: Time, rank: Rank, bytes: u64) {
-        self.lanes[rank].memory = bytes;
+        self.nodes[rank].memory = bytes;
     }
 }
 

@@ -1,27 +1,21 @@
-//! The viewer of a report: runs as they were recorded, packed into a page that shows the light, the
-//! machine and the time of any instant.
+//! The viewer of a report: packs recorded runs into an HTML page that shows the light, the machine and
+//! the timeline at any instant of a run, and explains in words why the run took as long as it did.
 //!
-//! A [`Film`] observes a run; [`Recorded`] packs films for a page whose [`program`] needs nothing but a
-//! browser, and answers in words what one asks first. Knows nothing of experiment files and tables.
+//! The page needs nothing but a browser. `assets/` holds its program, in plain JavaScript.
 
-mod answers;
+/// An observer that packs a run in parts while it is under way.
 mod broadcast;
-mod budget;
-mod columns;
-mod critical;
-mod data;
-mod film;
-mod ledger;
-mod live_page;
+/// Why a run took as long as it did: time per node, critical path, answers in words.
+mod explain;
+/// Runs as blocks of data for the page.
+mod pack;
+/// The parts of an HTML page: of a report, and of a page that follows runs while they are under way.
 mod page;
-mod reel;
-mod run;
-mod scene;
+/// What is recorded of a run.
+mod record;
 #[cfg(test)]
 mod tests;
 
-pub use broadcast::{Audience, Broadcast};
-pub use film::Film;
-pub use live_page::{LivePage, LiveRun};
-pub use page::{MARKUP, Recorded, STYLE, program};
-pub use reel::Reel;
+pub use broadcast::{Broadcast, Subscriber};
+pub use page::{LivePage, LiveRun, MARKUP, ReportParts, STYLE, program};
+pub use record::{LightRecording, RecordedRun};

@@ -1,4 +1,4 @@
-//! Recordings of a small run: what is told of it adds up, and comes out the same each time.
+//! Recordings of a small run: their analysis adds up, and their blocks are deterministic and complete.
 
 use std::cell::RefCell;
 use std::path::Path;
@@ -13,12 +13,11 @@ use virtwall::{
     SharedObserver, Shooting, Ties, simulate_observed,
 };
 
-use crate::broadcast::{Audience, Broadcast};
-use crate::columns::Reader;
-use crate::film::{Doing, Film};
-use crate::page::Recorded;
-use crate::reel::{Reel, Told};
-use crate::run::{ns, told};
+use crate::broadcast::{Broadcast, Subscriber};
+use crate::explain::AnalysedRun;
+use crate::pack::{Reader, nanoseconds, shown_spans};
+use crate::page::ReportParts;
+use crate::record::{LightRecording, NodeState, RecordedRun};
 
 const PROCESSORS: usize = 5;
 
@@ -47,10 +46,10 @@ fn problem() -> Arc<Problem> {
     Arc::new(Problem::new(scene, options).unwrap())
 }
 
-fn film(problem: &Arc<Problem>, processors: usize) -> (Outcome, Film) {
-    let film = Rc::new(RefCell::new(Film::new(problem, processors)));
-    let outcome = observed(problem, processors, &machine(), film.clone());
-    (outcome, Rc::into_inner(film).unwrap().into_inner())
+fn record(problem: &Arc<Problem>, processors: usize) -> (Outcome, LightRecording) {
+    let recording = Rc::new(RefCell::new(LightRecording::new(problem, processors)));
+    let outcome = observed(problem, processors, &machine(), recording.clone());
+    (outcome, Rc::into_inner(recording).unwrap().into_inner())
 }
 
 fn observed(
@@ -82,94 +81,101 @@ fn observed(
     simulate_observed(&run, machine, machine.network(), Some(observer)).unwrap()
 }
 
-fn reel<'a>(problem: &'a Arc<Problem>, machine: &'a Machine, film: &'a Film) -> Reel<'a> {
-    Reel {
-        label: format!("room, {} processors", film.processors()),
+fn recorded_run<'a>(
+    problem: &'a Arc<Problem>,
+    machine: &'a Machine,
+    recording: &'a LightRecording,
+) -> RecordedRun<'a> {
+    RecordedRun {
+        label: format!("room, {} processors", recording.processors()),
         scene: "room".to_owned(),
         group: 0,
         problem,
         machine,
-        owners: Mapping::Blocks.owners(problem.environments.len() as u32, film.processors()),
+        owners: Mapping::Blocks.owners(problem.environments.len() as u32, recording.processors()),
         answer: None,
         published: None,
-        film,
+        recording,
     }
 }
 
-/// The chain leads from the start to the end without a gap, and only along messages from node to node.
+/// It leads from the start to the end without a gap, and from node to node only along messages.
 #[test]
-fn the_critical_path_is_whole() {
+fn the_critical_path_is_complete() {
     let (problem, machine) = (problem(), machine());
-    let (outcome, film) = film(&problem, PROCESSORS);
-    let reel = reel(&problem, &machine, &film);
-    let told = Told::of(&reel);
-    let path = &told.path;
+    let (outcome, recording) = record(&problem, PROCESSORS);
+    let run = recorded_run(&problem, &machine, &recording);
+    let analysed = AnalysedRun::of(&run);
+    let path = &analysed.path;
     assert!(path.len() > 10);
     assert_eq!((path[0].from, path[path.len() - 1].to), (Time::ZERO, outcome.time));
     for pair in path.windows(2) {
         assert_eq!(pair[0].to, pair[1].from);
         let moves = pair[0].node != pair[1].node;
-        assert!(!moves || pair[1].doing == Doing::Travelling, "{pair:?}");
+        assert!(!moves || pair[1].state == NodeState::Travelling, "{pair:?}");
     }
-    assert!((told.account.path.iter().sum::<f64>() - outcome.time.as_seconds_f64()).abs() < 1e-9);
-    // Whatever waits on it, waits for a message.
-    assert_eq!(told.account.path[Doing::Waiting as usize], 0.0);
+    assert!(
+        (analysed.path_seconds.iter().sum::<f64>() - outcome.time.as_seconds_f64()).abs() < 1e-9
+    );
+    // Every wait on it is explained by a message.
+    assert_eq!(analysed.path_seconds[NodeState::Waiting as usize], 0.0);
 }
 
-/// All nodes' time is in the ledger, and what it says of computing is what the run says.
+/// The parts of all nodes' time add up, and the time in kernels is the run's.
 #[test]
-fn the_ledger_holds_all_time() {
+fn the_time_breakdown_is_complete() {
     let (problem, machine) = (problem(), machine());
-    let (outcome, film) = film(&problem, PROCESSORS);
-    let reel = reel(&problem, &machine, &film);
-    let account = Told::of(&reel).account;
-    let all = &account.all;
-    let sum = all.computing() + all.overhead() + all.of_doing(Doing::Paging) + all.waiting();
+    let (outcome, recording) = record(&problem, PROCESSORS);
+    let run = recorded_run(&problem, &machine, &recording);
+    let analysed = AnalysedRun::of(&run);
+    let all = &analysed.all;
+    let sum = all.computing() + all.overhead() + all.in_state(NodeState::Paging) + all.waiting();
     let whole = outcome.time.as_seconds_f64() * PROCESSORS as f64;
     assert!((sum - whole).abs() < 1e-9 * whole, "{sum} of {whole}");
     assert!((all.computing() / whole - outcome.busy_fraction()).abs() < 1e-9);
-    assert_eq!(account.last.1, outcome.time);
+    assert_eq!(analysed.last.1, outcome.time);
     let busy = |node: usize| outcome.nodes[node].compute;
-    assert!((0..PROCESSORS).all(|node| busy(node) <= busy(account.busiest)));
+    assert!((0..PROCESSORS).all(|node| busy(node) <= busy(analysed.busiest)));
 }
 
-/// Runs share their shots, and the same recordings make the same bytes.
+/// Runs share their shots, and the same recordings give the same bytes.
 #[test]
-fn recordings_are_packed_once_and_the_same() {
+fn blocks_are_deterministic() {
     let (problem, machine) = (problem(), machine());
-    let films = [1, 2, PROCESSORS].map(|processors| film(&problem, processors).1);
-    let pack = |films: &[Film], threads: usize| {
-        let reels: Vec<Reel> = films.iter().map(|film| reel(&problem, &machine, film)).collect();
-        Recorded::of(&reels, usize::MAX, threads)
+    let recordings = [1, 2, PROCESSORS].map(|processors| record(&problem, processors).1);
+    let pack = |recordings: &[LightRecording], threads: usize| {
+        let runs = recordings.iter().map(|recording| recorded_run(&problem, &machine, recording));
+        ReportParts::of(&runs.collect::<Vec<_>>(), usize::MAX, threads)
     };
-    let [one, all] = [&films[..1], &films].map(|films| pack(films, 2));
-    let shots = |recorded: &Recorded| {
-        let (_, rest) = recorded.data.split_once("id=\"shots-0\">").unwrap();
+    let [one, all] = [&recordings[..1], &recordings].map(|recordings| pack(recordings, 2));
+    let shots = |parts: &ReportParts| {
+        let (_, rest) = parts.data.split_once("id=\"shots-0\">").unwrap();
         rest.split('<').next().unwrap().to_owned()
     };
-    assert_eq!(shots(&one), shots(&all), "shots depend on the processors that make them");
-    assert_eq!(all.data, pack(&films, 1).data);
+    assert_eq!(shots(&one), shots(&all), "shots depend on the number of processors");
+    assert_eq!(all.data, pack(&recordings, 1).data);
     let report = format!("<p>{}</p>{}", all.answers, all.data);
-    let again = Recorded::in_report(&report).unwrap();
+    let again = ReportParts::in_report(&report).unwrap();
     assert_eq!((again.answers, again.data), (all.answers, all.data));
 }
 
-/// Where there is not room for all, the runs on the fewest and the most processors come first.
+/// Without room for all, the runs on the fewest and the most processors come first.
 #[test]
-fn what_has_no_room_is_left_out_and_told() {
+fn runs_without_room_are_left_out_and_named() {
     let (problem, machine) = (problem(), machine());
-    let films = [1, 2, PROCESSORS].map(|processors| film(&problem, processors).1);
-    let reels: Vec<Reel> = films.iter().map(|film| reel(&problem, &machine, film)).collect();
-    let runs = |limit: usize| {
-        let data = Recorded::of(&reels, limit, 1).data;
+    let recordings = [1, 2, PROCESSORS].map(|processors| record(&problem, processors).1);
+    let runs = recordings.iter().map(|recording| recorded_run(&problem, &machine, recording));
+    let runs: Vec<RecordedRun> = runs.collect();
+    let shown = |limit: usize| {
+        let data = ReportParts::of(&runs, limit, 1).data;
         [1, 2, PROCESSORS].map(|n| data.contains(&format!("\"label\":\"room, {n} processors\"")))
     };
-    let whole = Recorded::of(&reels, usize::MAX, 1).data.len();
-    let mut shown: Vec<[bool; 3]> = (0..25).rev().map(|i| runs(i * whole / 6)).collect();
-    shown.dedup();
+    let whole = ReportParts::of(&runs, usize::MAX, 1).data.len();
+    let mut seen: Vec<[bool; 3]> = (0..25).rev().map(|i| shown(i * whole / 6)).collect();
+    seen.dedup();
     let [all, ends] = [[true; 3], [true, false, true]];
-    assert_eq!(shown, [all, ends, [true, false, false], [false; 3]]);
-    assert!(Recorded::of(&reels, 0, 1).data.contains("0 of 3 recorded runs are here"));
+    assert_eq!(seen, [all, ends, [true, false, false], [false; 3]]);
+    assert!(ReportParts::of(&runs, 0, 1).data.contains("0 of 3 recorded runs are here"));
 }
 
 /// Asks for a part after every seventh shot.
@@ -178,7 +184,7 @@ struct Listener {
     parts: Rc<RefCell<Vec<String>>>,
 }
 
-impl Audience for Listener {
+impl Subscriber for Listener {
     fn is_due(&mut self) -> bool {
         self.shots += 1;
         self.shots.is_multiple_of(7)
@@ -190,27 +196,30 @@ impl Audience for Listener {
 }
 
 #[test]
-fn the_parts_of_a_run_are_the_whole() {
-    parts_are_the_whole(&machine(), PROCESSORS);
-    parts_are_the_whole(&machine_of("ultra1.json"), 1);
+fn the_parts_of_a_run_are_complete() {
+    parts_are_complete(&machine(), PROCESSORS);
+    parts_are_complete(&machine_of("ultra1.json"), 1);
 }
 
-/// What is told of a run part by part is what was recorded of it.
-fn parts_are_the_whole(machine: &Machine, processors: usize) {
+/// The parts of a run together contain what was recorded of it.
+fn parts_are_complete(machine: &Machine, processors: usize) {
     let problem = problem();
     let parts = Rc::new(RefCell::new(Vec::new()));
     let listener = Listener { shots: 0, parts: Rc::clone(&parts) };
-    let film = Rc::new(RefCell::new(Film::new(&problem, processors)));
+    let recording = Rc::new(RefCell::new(LightRecording::new(&problem, processors)));
     let broadcast = Rc::new(RefCell::new(Broadcast::new(&problem, processors, listener)));
-    let observers = Observers(vec![film.clone(), broadcast.clone()]);
+    let observers = Observers(vec![recording.clone(), broadcast.clone()]);
     let outcome = observed(&problem, processors, machine, Rc::new(RefCell::new(observers)));
-    broadcast.borrow_mut().tell();
+    broadcast.borrow_mut().flush();
 
-    let film = film.borrow();
-    let recorded = film.recording.nodes.iter().map(|node| told(node).into_iter());
-    let expected: Vec<Vec<(u64, u64, u64)>> = recorded
-        .map(|spans| spans.map(|s| (Doing::of(s.activity) as u64, ns(s.from), ns(s.to))).collect())
-        .collect();
+    let recording = recording.borrow();
+    let row = |span: virtwall::Span| {
+        let state = NodeState::of(span.activity) as u64;
+        (state, nanoseconds(span.from), nanoseconds(span.to))
+    };
+    let recorded = recording.recording.nodes.iter();
+    let expected: Vec<Vec<(u64, u64, u64)>> =
+        recorded.map(|node| shown_spans(node).into_iter().map(row).collect()).collect();
     let mut spans = vec![Vec::new(); processors + 1];
     let (mut ends, mut shots, mut hits) = (vec![0; processors + 1], Vec::new(), 0);
     let (mut now, mut messages) = (0, 0);
@@ -220,13 +229,13 @@ fn parts_are_the_whole(machine: &Machine, processors: usize) {
         assert!(at >= now);
         now = at;
         let counts = part.ints();
-        let [kinds, gaps, lengths] = [0; 3].map(|_| part.ints());
+        let [states, gaps, lengths] = [0; 3].map(|_| part.ints());
         let mut nth = 0;
         for (node, count) in counts.into_iter().enumerate() {
             for _ in 0..count {
                 let from = ends[node] + gaps[nth];
                 ends[node] = from + lengths[nth];
-                spans[node].push((kinds[nth], from, ends[node]));
+                spans[node].push((states[nth], from, ends[node]));
                 nth += 1;
             }
         }
@@ -241,16 +250,17 @@ fn parts_are_the_whole(machine: &Machine, processors: usize) {
         messages += part.ints().len();
     }
     assert_eq!(spans, expected);
-    assert_eq!(now, ns(outcome.time));
+    assert_eq!(now, nanoseconds(outcome.time));
     let counts = outcome.counts;
     assert_eq!(shots.len() as u64, counts.local_shots + counts.received_shots);
-    let spans = spans.iter().flatten().filter(|(doing, ..)| *doing <= Doing::ReceivedShot as u64);
+    let spans =
+        spans.iter().flatten().filter(|(state, ..)| *state <= NodeState::ReceivedShot as u64);
     assert_eq!(spans.count(), shots.len());
-    for (rank, beams) in film.beams.iter().enumerate() {
-        assert_eq!(shots.iter().filter(|&&shot| shot == rank as u64).count(), beams.len());
+    for (rank, recorded) in recording.shots.iter().enumerate() {
+        assert_eq!(shots.iter().filter(|&&shot| shot == rank as u64).count(), recorded.len());
     }
     assert!(hits > 0);
-    let arrived = film.recording.messages.iter().filter(|message| message.arrived.is_some());
+    let arrived = recording.recording.messages.iter().filter(|message| message.arrived.is_some());
     assert_eq!(messages, arrived.count());
     assert!(parts.borrow().len() > 3);
 }

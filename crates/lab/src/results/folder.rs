@@ -5,7 +5,7 @@ use std::io;
 use std::path::Path;
 
 use serde_json::{Map, Value, json};
-use viewer::Recorded;
+use viewer::ReportParts;
 
 use crate::engine::simulator::On;
 use crate::experiment::fields::Plot;
@@ -33,7 +33,7 @@ pub struct Results {
     /// Configuration, seed, versions and digests.
     pub manifest: Value,
     /// What the report's viewer shows, if runs were recorded.
-    recorded: Option<Recorded>,
+    recorded: Option<ReportParts>,
 }
 
 impl Results {
@@ -77,7 +77,7 @@ impl Results {
         let table = Table::from_csv(&bytes).map_err(|error| file::unreadable(&csv, error))?;
         // What was recorded stands nowhere but in the report.
         let report = fs::read_to_string(folder.join("report.html")).ok();
-        let recorded = report.and_then(|html| Recorded::in_report(&html));
+        let recorded = report.and_then(|html| ReportParts::in_report(&html));
         Ok(Results { table, manifest: document.value, recorded })
     }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use radiosity::Rgb;
-use viewer::{Recorded, Reel};
+use viewer::{RecordedRun, ReportParts};
 
 use crate::accuracy::errors::laid_on;
 use crate::engine::simulator;
@@ -14,7 +14,7 @@ use crate::run::runner::Endings;
 const LIMIT: usize = 19_000_000;
 
 /// The recordings of a plan's runs, packed by so many threads; none if there are none.
-pub fn recorded(plan: &Plan, endings: &Endings, threads: usize) -> Option<Recorded> {
+pub fn recorded(plan: &Plan, endings: &Endings, threads: usize) -> Option<ReportParts> {
     let mut groups: Vec<(usize, Vec<usize>)> = Vec::new();
     let mut answers: Vec<Option<Arc<Vec<Rgb>>>> = vec![None; plan.problems.len()];
     let mut reels = Vec::new();
@@ -31,7 +31,7 @@ pub fn recorded(plan: &Plan, endings: &Endings, threads: usize) -> Option<Record
             answers[run.problem] = answer.map(|answer| Arc::new(laid_on(&answer, problem)));
         }
         let published = plan.comparison.of(&run.point.scene, run.point.processors);
-        reels.push(Reel {
+        reels.push(RecordedRun {
             label: plan.label(run),
             scene: run.point.scene.clone(),
             group,
@@ -40,8 +40,8 @@ pub fn recorded(plan: &Plan, endings: &Endings, threads: usize) -> Option<Record
             owners: simulator::owners(&run.point, problem),
             answer: answers[run.problem].clone(),
             published: published.speed_up.parse().ok(),
-            film,
+            recording: film,
         });
     }
-    (!reels.is_empty()).then(|| Recorded::of(&reels, LIMIT, threads))
+    (!reels.is_empty()).then(|| ReportParts::of(&reels, LIMIT, threads))
 }

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use serde_json::Value;
-use viewer::Recorded;
+use viewer::ReportParts;
 
 use crate::experiment::fields::experiment_schema;
 use crate::results::console::{Line, lines};
@@ -25,7 +25,7 @@ pub fn html(
     runs: &Table,
     sweeps: &[String],
     drawings: &[String],
-    recorded: Option<&Recorded>,
+    recorded: Option<&ReportParts>,
 ) -> String {
     let lead = lead(manifest, runs);
     let compared = Summary::of(runs).lines();
@@ -72,7 +72,7 @@ pub fn page(title: &str, style: &str, body: &str) -> String {
 }
 
 /// The viewer: its style, what stands among the text, and what ends the page.
-fn viewer_parts(recorded: &Recorded) -> [String; 3] {
+fn viewer_parts(recorded: &ReportParts) -> [String; 3] {
     let answers =
         format!("<h2>What happened, and why</h2>\n{}{}", recorded.answers, viewer::MARKUP);
     let data = format!("{}{}", recorded.data, viewer::program());

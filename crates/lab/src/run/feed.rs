@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use viewer::Audience;
+use viewer::Subscriber;
 
 use crate::host::host_clock::Interval;
 
@@ -35,7 +35,7 @@ impl Follower {
     }
 }
 
-impl Audience for Follower {
+impl Subscriber for Follower {
     fn is_due(&mut self) -> bool {
         self.interval.is_due()
     }

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use radiosity::Rgb;
-use viewer::{Broadcast, Film};
+use viewer::{Broadcast, LightRecording};
 use virtwall::{Helpers, KeptShots, Memory, Observers, Recording, SharedObserver, ShotCounts};
 
 use crate::accuracy::answer::DenseAnswers;
@@ -99,7 +99,7 @@ pub struct Endings {
     /// Host memory that kept shots took at most, bytes.
     pub shot_bytes: usize,
     /// What was recorded for the report.
-    pub films: Vec<Option<Film>>,
+    pub films: Vec<Option<LightRecording>>,
     /// Dense solutions that runs were held against.
     pub dense: DenseAnswers,
 }
@@ -170,7 +170,7 @@ struct Desk<'a> {
     queue: Mutex<Queue>,
     runs: Mutex<Vec<Option<Ending>>>,
     host: Mutex<Vec<Option<HostTimes>>>,
-    films: Mutex<Vec<Option<Film>>>,
+    films: Mutex<Vec<Option<LightRecording>>>,
     dense: DenseAnswers,
     trouble: Mutex<Option<io::Error>>,
 }
@@ -269,7 +269,7 @@ impl Desk<'_> {
         let on = self.options.on;
         let (traces, filmed) = (&self.options.traces, self.filmed[task.run]);
         let processors = run.processors;
-        let film = filmed.then(|| Rc::new(RefCell::new(Film::new(problem, processors))));
+        let film = filmed.then(|| Rc::new(RefCell::new(LightRecording::new(problem, processors))));
         // A trace needs no light.
         let recording = (traces.is_some() && !filmed)
             .then(|| Rc::new(RefCell::new(Recording::new(problem, processors))));
@@ -283,16 +283,17 @@ impl Desk<'_> {
         let ended =
             simulator::carry_out(&run, point, on, machine, *scene_bytes, together(observers));
         if let (Some(broadcast), Some(feed)) = (broadcast, &self.options.feed) {
-            broadcast.borrow_mut().tell();
+            broadcast.borrow_mut().flush();
             feed(task.run, News::End);
         }
         let film = film.and_then(Rc::into_inner).map(RefCell::into_inner);
         let recording = recording.and_then(Rc::into_inner).map(RefCell::into_inner);
         // Of a run that failed, too: there it is needed most.
-        let traced = match (traces, film.as_ref().map(Film::recording).or(recording.as_ref())) {
-            (Some(traces), Some(recording)) => traces.write(self.plan, task.run, recording),
-            _ => Ok(()),
-        };
+        let traced =
+            match (traces, film.as_ref().map(LightRecording::recording).or(recording.as_ref())) {
+                (Some(traces), Some(recording)) => traces.write(self.plan, task.run, recording),
+                _ => Ok(()),
+            };
         held(&self.films)[task.run] = film.filter(|_| ended.is_ok());
         (ended, traced)
     }

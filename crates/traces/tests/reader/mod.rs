@@ -1,5 +1,5 @@
-//! Reads a Perfetto trace as trace_processor does, as far as ours go. The messages are declared after
-//! Perfetto's own definitions, apart from the code that writes them.
+//! Reads a Perfetto trace as trace_processor does, as far as our traces need. The messages are declared from
+//! Perfetto's definitions, independently of the code that writes them.
 
 #![allow(dead_code, reason = "each test file uses some of these")]
 

@@ -1,0 +1,17 @@
+//! Files and folders that commands write. What cannot be written is bad input.
+
+use std::path::Path;
+
+use crate::exit::Exit;
+
+/// Makes a folder, if it does not exist; `purpose` is what it is for.
+pub fn make_folder(path: &Path, purpose: &str) -> Result<(), Exit> {
+    std::fs::create_dir_all(path).map_err(|error| {
+        Exit::bad_input(format!("{}: cannot make a folder for {purpose}: {error}", path.display()))
+    })
+}
+
+/// Writes a file.
+pub fn write(path: &Path, bytes: impl AsRef<[u8]>) -> Result<(), Exit> {
+    lab::write_file(path, bytes.as_ref()).map_err(Exit::bad_input)
+}

@@ -1,0 +1,25 @@
+//! `virtwall scene`: scenes.
+
+mod make;
+mod show;
+
+use clap::Subcommand;
+
+use crate::exit::Exit;
+
+/// What to do with a scene.
+#[derive(Subcommand)]
+pub enum Command {
+    /// Write one of the scenes of RR-3008 (section 5.1) or a small one, as OBJ and MTL files
+    Make(make::Arguments),
+    /// Print what a scene contains, and draw it
+    Show(show::Arguments),
+}
+
+/// Returns what to print.
+pub fn run(command: &Command) -> Result<String, Exit> {
+    match command {
+        Command::Make(arguments) => make::run(arguments),
+        Command::Show(arguments) => show::run(arguments),
+    }
+}

@@ -1,0 +1,118 @@
+//! `virtwall scene show`: what a scene contains, in numbers and as a picture.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use lab::OpenScene;
+use radiosity::{
+    Camera, Hemisphere, HemisphereKind, LocalEnvironment, PatchSize, Picture, PictureError,
+    PictureOptions, Rgb, Space, render, solve, studio_light,
+};
+
+use crate::exit::Exit;
+use crate::files::write;
+use crate::steps::Steps;
+
+/// The share of the light that may be unshot in a picture.
+const UNSHOT: f64 = 0.1;
+/// The most shots for a picture.
+const MOST_SHOTS: u64 = 5_000;
+/// Rays per shot for a picture.
+const PIXELS: u32 = 4_096;
+
+/// Which scene, and what to draw of it.
+#[derive(Args)]
+pub struct Arguments {
+    /// Name of a scene, or path to a scene description (.json) or an OBJ file
+    scene: String,
+    /// Draw a picture to this PNG file
+    #[arg(long, value_name = "OUT")]
+    png: Option<PathBuf>,
+    /// Leave out of the picture what is above this height, in metres
+    #[arg(long, value_name = "Z", allow_hyphen_values = true)]
+    cut_above: Option<f64>,
+    /// Show materials and lights without solving [default]
+    #[arg(long, conflicts_with = "solved")]
+    emitted: bool,
+    /// Show the solution with at most 10 % of the light unshot
+    #[arg(long)]
+    solved: bool,
+}
+
+/// Draws the picture, if one is asked for; returns the numbers.
+pub fn run(arguments: &Arguments) -> Result<String, Exit> {
+    if arguments.cut_above.is_some_and(|height| !height.is_finite()) {
+        return Err(Exit::bad_input("--cut-above: not a height; expected metres, such as 2.5"));
+    }
+    let open = OpenScene::load(&arguments.scene)?;
+    let (space, whole) = meshed(&open);
+    let text = numbers(&open, &whole);
+    if let Some(path) = &arguments.png {
+        let picture = picture(&open, &space, &whole, arguments).map_err(Exit::bad_input)?;
+        let bytes = picture.encode_png().map_err(Exit::failure)?;
+        write(path, &bytes)?;
+    }
+    Ok(text)
+}
+
+/// The scene in its grid, meshed as one environment.
+fn meshed(open: &OpenScene) -> (Space, LocalEnvironment) {
+    let space = Space::new(open.scene.clone(), open.cells);
+    let size = PatchSize { reflector: open.patch_size, emitter: open.emitter_patch_size };
+    let whole = LocalEnvironment::new(&space, space.grid.whole(), size);
+    (space, whole)
+}
+
+fn numbers(open: &OpenScene, whole: &LocalEnvironment) -> String {
+    let scene = &open.scene;
+    let world = |local: Rgb| (local + scene.origin).to_array().map(|c| format!("{c:.2}")).join(" ");
+    let power = scene.emitted_power().to_array().map(|watts| format!("{watts:.1}")).join(" ");
+    let lights = scene.polygons.iter().filter(|p| scene.material(p).emission != Rgb::ZERO).count();
+    let [x, y, z] = open.cells;
+    let mut text = String::new();
+    let mut line = |name: &str, value: String| text += &format!("{name:<16}{value}\n");
+    open.title.iter().for_each(|title| line("title", title.clone()));
+    line("polygons", format!("{}, {lights} of them lights", scene.polygons.len()));
+    line("vertices", scene.vertices.len().to_string());
+    line("materials", scene.materials.len().to_string());
+    line("objects", scene.objects.len().to_string());
+    line("bounds", format!("{} to {} m", world(scene.bounds.min), world(scene.bounds.max)));
+    line("area", format!("{:.1} m²", scene.area()));
+    line("emitted power", format!("{power} W (red, green, blue)"));
+    line(
+        "patch size",
+        format!("{:.3} m, of lights {:.3} m", open.patch_size, open.emitter_patch_size),
+    );
+    line("patches", format!("{} before any cut", whole.patches.len()));
+    line("cells", format!("{x} x {y} x {z}"));
+    for medium in &scene.media {
+        let [min, max] = [medium.bounds.min, medium.bounds.max].map(world);
+        line("medium", format!("{min} to {max} m absorbs {} /m", medium.absorption));
+    }
+    open.warnings.iter().for_each(|warning| line("warning", warning.clone()));
+    text
+}
+
+fn picture(
+    open: &OpenScene,
+    space: &Space,
+    whole: &LocalEnvironment,
+    arguments: &Arguments,
+) -> Result<Picture, PictureError> {
+    let camera = Camera::overview(&open.scene.bounds, 1200, 800);
+    let cut_above = arguments.cut_above.map(|height| height - open.scene.origin.z);
+    let options = PictureOptions { cut_above, ..PictureOptions::default() };
+    if !arguments.solved {
+        return render(&open.scene, &camera, studio_light(&open.scene), options);
+    }
+    let hemisphere = Hemisphere::new(HemisphereKind::Fibonacci, PIXELS, true)
+        .expect("4096 is a number of pixels that a Fibonacci disc can have");
+    let steps = Steps::new("% of the light", (100.0 * (1.0 - UNSHOT)) as usize);
+    let watch = |left: f64| steps.at((100.0 * (1.0 - left)) as u64);
+    let (light, _) = solve(space, whole, &hemisphere, UNSHOT, MOST_SHOTS, watch);
+    steps.end();
+    let colour = |polygon, point| {
+        whole.patch_at(polygon, point).map_or(Rgb::ZERO, |patch| light.radiosity(whole, patch))
+    };
+    render(&space.scene, &camera, colour, options)
+}

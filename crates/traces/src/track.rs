@@ -1,0 +1,124 @@
+//! The events of one node in the order of time, with the messages that belong to each.
+
+use desim::Time;
+use virtwall::{Activity, MessageRecord, NodeRecord, Recording, Span};
+
+use crate::sample::Sample;
+
+/// Numbers of the messages that a node sent and read, in the order of time.
+#[derive(Clone, Default)]
+pub(crate) struct NodeMessages {
+    sent: Vec<usize>,
+    read: Vec<usize>,
+}
+
+impl NodeMessages {
+    /// Of every node, by rank.
+    pub(crate) fn of(recording: &Recording) -> Vec<NodeMessages> {
+        let mut nodes = vec![NodeMessages::default(); recording.nodes.len()];
+        for (number, message) in recording.messages.iter().enumerate() {
+            nodes[message.from as usize].sent.push(number);
+            if message.read.is_some() {
+                nodes[message.to as usize].read.push(number);
+            }
+        }
+        for node in &mut nodes {
+            node.read.sort_by_key(|&number| recording.messages[number].read);
+        }
+        nodes
+    }
+}
+
+/// An event of a node.
+pub(crate) enum Event<'a> {
+    /// The span that began last ends.
+    End,
+    /// A span begins, with the messages that it sends or reads.
+    Begin(Activity, &'a [usize]),
+    /// A message is sent without a span.
+    Sent(usize),
+    /// A message is read without a span.
+    Read(usize),
+}
+
+/// A node with its messages.
+pub(crate) struct Track<'a> {
+    pub(crate) messages: &'a [MessageRecord],
+    pub(crate) node: &'a NodeRecord,
+    pub(crate) numbers: &'a NodeMessages,
+    pub(crate) sample: Sample,
+}
+
+impl<'a> Track<'a> {
+    /// All events, in the order of time, with spans of waiting only if `waits`. Spans that the sample
+    /// leaves out count as waiting.
+    ///
+    /// A message belongs to the span that begins when it is sent or read. With a coprocessor, or where
+    /// messages cost nothing, there is no such span, and the message is an event of its own.
+    pub(crate) fn events(&self, waits: bool) -> Vec<(Time, Event<'a>)> {
+        let sent_at = |number: usize| self.messages[number].sent;
+        let read_at = |number: usize| self.messages[number].read.unwrap_or(Time::MAX);
+        let mut sent = Queue { rest: &self.numbers.sent, time: sent_at, skipped: Vec::new() };
+        let mut read = Queue { rest: &self.numbers.read, time: read_at, skipped: Vec::new() };
+        // Either all nodes of a machine have coprocessors, or none has.
+        let handed_over = self.messages.first().is_some_and(|message| message.handed_over);
+        let mut events = Vec::new();
+        for Span { activity, from, to } in self.node.spans() {
+            let numbers = match activity {
+                Activity::Send(_) if !handed_over => sent.take(from, 1),
+                Activity::Receive => read.take(from, usize::MAX),
+                _ => &[],
+            };
+            let is_message = matches!(activity, Activity::Send(_) | Activity::Receive);
+            let shown = self.sample.is_complete()
+                || !is_message
+                || numbers.iter().any(|&number| self.sample.holds(number));
+            let activity = if shown { activity } else { Activity::Wait };
+            if waits || activity != Activity::Wait {
+                events.extend([(from, Event::Begin(activity, numbers)), (to, Event::End)]);
+            }
+        }
+        let shown = |number: &usize| self.sample.holds(*number);
+        let sent = sent.without_span().filter(shown).map(|n| (sent_at(n), Event::Sent(n)));
+        let read = read.without_span().filter(shown).map(|n| (read_at(n), Event::Read(n)));
+        events.extend(read.chain(sent));
+        events.sort_by_key(|(time, event)| (*time, event.order()));
+        events
+    }
+}
+
+impl Event<'_> {
+    /// Of events at one time, spans end before others begin; messages without a span come last.
+    fn order(&self) -> u8 {
+        match self {
+            Event::End => 0,
+            Event::Begin(..) => 1,
+            Event::Sent(_) | Event::Read(_) => 2,
+        }
+    }
+}
+
+/// Messages in the order of time that are not assigned to a span yet.
+struct Queue<'a, F> {
+    rest: &'a [usize],
+    time: F,
+    /// Those that no span begins with.
+    skipped: Vec<usize>,
+}
+
+impl<'a, F: Fn(usize) -> Time> Queue<'a, F> {
+    /// Takes the messages of this time, at most `most`; earlier ones have no span.
+    fn take(&mut self, at: Time, most: usize) -> &'a [usize] {
+        let before = self.rest.iter().take_while(|&&n| (self.time)(n) < at).count();
+        let (skipped, rest) = self.rest.split_at(before);
+        self.skipped.extend(skipped);
+        let count = rest.iter().take(most).take_while(|&&n| (self.time)(n) == at).count();
+        let (taken, rest) = rest.split_at(count);
+        self.rest = rest;
+        taken
+    }
+
+    fn without_span(self) -> impl Iterator<Item = usize> {
+        self.skipped.into_iter().chain(self.rest.iter().copied())
+    }
+}
