@@ -74,11 +74,11 @@ fn json(path: &Path) -> Result<Row, String> {
 }
 
 fn flatten(place: &str, value: &Value, row: &mut Row) {
-    let inner =
-        |name: &str| if place.is_empty() { name.to_owned() } else { format!("{place}.{name}") };
     match value {
         Value::Object(fields) => {
-            fields.iter().for_each(|(name, field)| flatten(&inner(name), field, row))
+            for (name, field) in fields {
+                flatten(format!("{place}.{name}").trim_start_matches('.'), field, row);
+            }
         }
         Value::Null => row.retain(|name, _| !name.starts_with(place)),
         Value::String(text) => drop(row.insert(place.to_owned(), text.clone())),
