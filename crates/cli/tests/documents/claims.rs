@@ -67,13 +67,22 @@ fn combinations(text: &str) -> Vec<Variables> {
     found
 }
 
-/// Replaces each `{expression : format}` of a line.
+/// Repeats what is in `<< a = 1, 2: ... >>`, and replaces each `{expression : format}`.
 fn fill(
     line: &str,
     file: &str,
     variables: &Variables,
     sources: &mut Sources,
 ) -> Result<String, String> {
+    if let Some((before, rest)) = line.split_once("<<") {
+        let (inner, after) = rest.split_once(">>").ok_or("a << without a >>")?;
+        let (loops, repeated) = inner.split_once(':').ok_or("a << without a :")?;
+        let mut text = fill(before, file, variables, sources)?;
+        for more in combinations(loops) {
+            text += &fill(repeated, file, &[variables.as_slice(), &more].concat(), sources)?;
+        }
+        return Ok(text + &fill(after, file, variables, sources)?);
+    }
     let mut text = String::new();
     let mut rest = line;
     while let Some((before, after)) = rest.split_once('{') {
