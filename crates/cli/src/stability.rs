@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use stability::{Verdict, cases, csv, page, svg, try_case};
+use stability::{CaseResult, cases, csv, page, run_case, svg};
 
 use crate::exit::Exit;
 use crate::files::{make_folder, write};
@@ -31,19 +31,19 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
             .collect::<Result<_, Exit>>()?,
     };
     let steps = Steps::new("cases", paths.len());
-    let try_one = |number: usize| try_case(&paths[number]);
+    let try_one = |number: usize| run_case(&paths[number]);
     let tried = parallel::map(paths.len(), parallel::host_threads(), steps.counting(try_one));
     steps.end();
-    let verdicts = tried.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let results = tried.into_iter().collect::<Result<Vec<_>, _>>()?;
     let all = || arguments.case.is_empty().then(|| PathBuf::from("results/stability"));
     if let Some(out) = arguments.out.clone().or_else(all) {
-        write_page(&out, &verdicts)?;
+        write_page(&out, &results)?;
     }
-    let output = csv(&verdicts).map_err(Exit::failure)?;
-    match verdicts.iter().filter(|verdict| !verdict.holds()).count() {
+    let output = csv(&results).map_err(Exit::failure)?;
+    match results.iter().filter(|result| !result.holds()).count() {
         0 => Ok(output),
         wrong => {
-            let message = format!("{wrong} of {} cases failed", verdicts.len());
+            let message = format!("{wrong} of {} cases failed", results.len());
             Err(Exit { code: 1, output, message })
         }
     }
@@ -62,11 +62,11 @@ fn place(folder: &Path, name: &str) -> Result<PathBuf, Exit> {
     Err(Exit::bad_input(format!("unknown case \"{name}\" (there are: {})", names.join(", "))))
 }
 
-fn write_page(out: &Path, verdicts: &[Verdict]) -> Result<(), Exit> {
+fn write_page(out: &Path, results: &[CaseResult]) -> Result<(), Exit> {
     make_folder(out, "results")?;
-    let table = csv(verdicts).map_err(Exit::failure)?;
+    let table = csv(results).map_err(Exit::failure)?;
     let files =
-        [("README.md", page(verdicts)), ("cases.csv", table), ("stability.svg", svg(verdicts))];
+        [("README.md", page(results)), ("cases.csv", table), ("stability.svg", svg(results))];
     for (name, text) in files {
         write(&out.join(name), text)?;
     }

@@ -1,27 +1,23 @@
-//! Where radiosity by rays fails: each failure a case that can be run, with what right means, what a
-//! naive method does, and what ours does.
+//! Stability cases: failures of ray-based radiosity, each as a small experiment that can be run. For every
+//! case there is what is right, what this program finds, and what a naive method finds.
 //!
-//! A [`Case`] is a file: an experiment, changes to its scene, and what is right. [`try_case`] finds out.
-//! The naive methods are slow twins that live here and nowhere else.
+//! - `cases`: a case as its file states it: an experiment, changes to its scene, what is right
+//! - `runs`: the runs of a case
+//! - `checks`: what is measured on the runs: rays, direct light, light
+//! - `naive`: naive methods, slow and used nowhere else
+//! - `finding`: a measured quantity beside what is right
+//! - `suite`: finds and runs cases
+//! - `page`: the results as Markdown, CSV and SVG
 
-mod bench;
-mod case;
-mod change;
-mod direct;
+mod cases;
+mod checks;
 mod finding;
-mod light;
-mod measures;
 mod naive;
 mod page;
-mod rays;
-mod right;
+mod runs;
 mod suite;
-mod twin;
 
-pub use case::{Case, Listed, Overlay, case_schema};
-pub use change::{Change, Turn};
-pub use finding::{Finding, Said};
+pub use cases::{Case, Change, Exact, Expected, Listed, NaiveMethod, Overlay, Turn, case_schema};
+pub use finding::{Finding, Quantity};
 pub use page::{csv, page, svg};
-pub use right::{Exact, Right};
-pub use suite::{Verdict, cases, check, is_case, try_case};
-pub use twin::Twin;
+pub use suite::{CaseResult, cases, check, is_case, run_case};

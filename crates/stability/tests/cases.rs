@@ -5,7 +5,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use stability::{Finding, Said, cases, csv, page, svg, try_case};
+use stability::{Finding, Quantity, cases, csv, page, run_case, svg};
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
@@ -19,8 +19,8 @@ fn enter_the_project() {
 /// Whether a naive method is as good as is right.
 fn naive_holds(finding: &Finding) -> bool {
     match (&finding.bound, finding.naive.as_ref().unwrap()) {
-        (Said::Count(most), Said::Count(naive)) => naive.wrong <= most.wrong,
-        (Said::Number(most), Said::Number(naive)) => naive <= most,
+        (Quantity::Count(most), Quantity::Count(naive)) => naive.wrong <= most.wrong,
+        (Quantity::Number(most), Quantity::Number(naive)) => naive <= most,
         (right, naive) => right == naive,
     }
 }
@@ -29,18 +29,18 @@ fn naive_holds(finding: &Finding) -> bool {
 fn every_case_is_right_and_its_naive_method_is_not() {
     enter_the_project();
     let paths = cases(Path::new("experiments/stability")).unwrap();
-    let verdicts: Vec<_> = paths.iter().map(|path| try_case(path).unwrap()).collect();
-    for verdict in &verdicts {
-        assert!(verdict.holds(), "{}: {:#?}", verdict.name, verdict.findings);
-        let naive = || verdict.findings.iter().filter(|finding| finding.naive.is_some());
-        let expected = verdict.case.naive.is_some() || !verdict.case.naive_settings.is_empty();
-        assert_eq!(naive().count() > 0, expected, "{}: what is naive is right", verdict.name);
-        assert!(!naive().any(naive_holds), "{}: {:#?}", verdict.name, verdict.findings);
+    let results: Vec<_> = paths.iter().map(|path| run_case(path).unwrap()).collect();
+    for result in &results {
+        assert!(result.holds(), "{}: {:#?}", result.name, result.findings);
+        let naive = || result.findings.iter().filter(|finding| finding.naive.is_some());
+        let expected = result.case.naive.is_some() || !result.case.naive_settings.is_empty();
+        assert_eq!(naive().count() > 0, expected, "{}: what is naive is right", result.name);
+        assert!(!naive().any(naive_holds), "{}: {:#?}", result.name, result.findings);
     }
     for (name, text) in [
-        ("README.md", page(&verdicts)),
-        ("cases.csv", csv(&verdicts).unwrap()),
-        ("stability.svg", svg(&verdicts)),
+        ("README.md", page(&results)),
+        ("cases.csv", csv(&results).unwrap()),
+        ("stability.svg", svg(&results)),
     ] {
         let committed = fs::read_to_string(root().join("results/stability").join(name)).unwrap();
         assert!(committed == text, "{name} is out of date: run `virtwall stability` again");
@@ -81,7 +81,7 @@ fn bad_cases_are_refused() {
         ("{\"leaks\": 0}", "3", "case.json:2: right"),
     ] {
         fs::write(&case, good.replacen(from, to, 1)).unwrap();
-        let fault = try_case(&case).err().unwrap().to_string();
+        let fault = run_case(&case).err().unwrap().to_string();
         assert!(fault.contains(expected), "{fault}");
     }
     assert!(cases(&folder.path().join("none")).is_err());

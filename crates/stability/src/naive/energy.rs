@@ -1,21 +1,21 @@
-//! Energy kept in ways that lose it.
+//! Energy stored and summed in ways that lose it.
 
 use radiosity::{LocalEnvironment, Rgb};
 
-use super::single::{self, Corners};
-use crate::bench::{Bench, Trial};
-use crate::direct::{form_factors, lamps_and_others};
-use crate::light::{emissions, object_means, off};
-use crate::rays::sources;
+use crate::checks::casting::sources;
+use crate::checks::direct::{form_factors, lamps_and_others};
+use crate::checks::light::{emissions, error, object_means};
+use crate::naive::single::{self, Corners};
+use crate::runs::{CaseRun, CaseRuns};
 
-/// Greatest radiosity, over a lamp's, that one shot of a lamp brings to any patch when each ray brings
-/// its radiosity over the patch's area.
-pub fn brightest(bench: &Bench) -> f64 {
+/// Greatest radiosity, relative to that of a lamp, that one shot of a lamp deposits on any patch if rays
+/// carry radiosity instead of energy.
+pub fn brightest(runs: &CaseRuns) -> f64 {
     let mut brightest: f64 = 0.0;
-    for trial in &bench.trials {
-        let problem = &*trial.problem;
+    for run in &runs.list {
+        let problem = &*run.problem;
         let scene = &problem.space.scene;
-        for lamp in lamps_and_others(bench, trial).0 {
+        for lamp in lamps_and_others(runs, run).0 {
             let of = |environment: u32, patch: u32| {
                 problem.environments[environment as usize].patches[patch as usize]
             };
@@ -33,13 +33,13 @@ pub fn brightest(bench: &Bench) -> f64 {
     brightest
 }
 
-/// Share of a watt that is missing when its rays' shares are added up in single precision.
-pub fn closure(bench: &Bench) -> f64 {
+/// Relative error of the emitted energy if it is summed ray by ray in single precision.
+pub fn closure(runs: &CaseRuns) -> f64 {
     let mut sum = 0.0_f32;
     let mut emitted = 0.0_f64;
-    for trial in &bench.trials {
-        let pixels = trial.problem.hemisphere.pixels();
-        for _ in sources(bench, trial, u64::MAX) {
+    for run in &runs.list {
+        let pixels = run.problem.hemisphere.pixels();
+        for _ in sources(runs, run, u64::MAX) {
             (0..pixels).for_each(|_| sum += 1.0 / pixels as f32);
             emitted += 1.0;
         }
@@ -47,23 +47,23 @@ pub fn closure(bench: &Bench) -> f64 {
     (1.0 - f64::from(sum) / emitted).abs()
 }
 
-/// How far the mean radiosities of objects are off when form factors are changed by `change`, which is
-/// told each row.
-fn off_with(bench: &Bench, change: impl Fn(&mut Vec<f64>)) -> f64 {
-    let Some(exact) = &bench.case.right.exact else { return f64::NAN };
-    let of = |trial: &Trial| {
-        let radiosity = solve(bench, trial, &change);
-        off(exact, &object_means(&trial.problem, &radiosity))
+/// Greatest relative error of the mean radiosities of objects if `change` is applied to each row of form
+/// factors.
+fn error_with(runs: &CaseRuns, change: impl Fn(&mut Vec<f64>)) -> f64 {
+    let Some(exact) = &runs.case.expected.exact else { return f64::NAN };
+    let of = |run: &CaseRun| {
+        let radiosity = solve(runs, run, &change);
+        error(exact, &object_means(&run.problem, &radiosity))
     };
-    bench.trials.iter().map(of).fold(0.0, f64::max)
+    runs.list.iter().map(of).fold(0.0, f64::max)
 }
 
-/// Radiosities by Jacobi's iteration over form factors by rays.
-fn solve(bench: &Bench, trial: &Trial, change: &impl Fn(&mut Vec<f64>)) -> Vec<Vec<Rgb>> {
-    let problem = &*trial.problem;
+/// Radiosities by Jacobi iteration with form factors by rays.
+fn solve(runs: &CaseRuns, run: &CaseRun, change: &impl Fn(&mut Vec<f64>)) -> Vec<Vec<Rgb>> {
+    let problem = &*run.problem;
     let scene = &problem.space.scene;
     let patches: Vec<_> = problem.environments.iter().flat_map(|e| &e.patches).collect();
-    let rows: Vec<Vec<f64>> = sources(bench, trial, u64::MAX)
+    let rows: Vec<Vec<f64>> = sources(runs, run, u64::MAX)
         .iter()
         .map(|source| {
             let mut row: Vec<f64> = form_factors(problem, source).into_iter().flatten().collect();
@@ -77,7 +77,7 @@ fn solve(bench: &Bench, trial: &Trial, change: &impl Fn(&mut Vec<f64>)) -> Vec<V
         .map(|patch| scene.material(&scene.polygons[patch.polygon as usize]).reflectance.x)
         .collect();
     let mut radiosity = emission.clone();
-    // Power goes from a row's patch to those of its columns.
+    // Rows are sources, columns receivers.
     for _ in 0..40_000 {
         let mut next = emission.clone();
         for (from, row) in rows.iter().enumerate() {
@@ -98,16 +98,16 @@ fn solve(bench: &Bench, trial: &Trial, change: &impl Fn(&mut Vec<f64>)) -> Vec<V
     problem.environments.iter().map(|e| all.by_ref().take(count(e)).collect()).collect()
 }
 
-/// With the share of rays lost that single precision loses in this scene, at every bounce.
-pub fn leaky(bench: &Bench) -> f64 {
-    let leaks = single::leaks(bench, Corners::Own);
+/// The error if every bounce loses the share of rays that single precision loses in this scene.
+pub fn leaky(runs: &CaseRuns) -> f64 {
+    let leaks = single::leaks(runs, Corners::Own);
     let kept = 1.0 - leaks.wrong as f64 / leaks.of as f64;
-    off_with(bench, |row| row.iter_mut().for_each(|form_factor| *form_factor *= kept))
+    error_with(runs, |row| row.iter_mut().for_each(|form_factor| *form_factor *= kept))
 }
 
-/// With rows that sum to 1, whatever goes out of the scene.
-pub fn normalised(bench: &Bench) -> f64 {
-    off_with(bench, |row| {
+/// The error if each row of form factors is scaled to sum to 1, even in an open scene.
+pub fn normalised(runs: &CaseRuns) -> f64 {
+    error_with(runs, |row| {
         let sum: f64 = row.iter().sum();
         row.iter_mut().for_each(|form_factor| *form_factor /= sum);
     })

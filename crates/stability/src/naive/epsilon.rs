@@ -1,12 +1,12 @@
-//! A start of rays that is kept clear by a length of one's own choice.
+//! Rays that ignore hits near their start, by an arbitrary length.
 
 use radiosity::{Emitter, Ray};
 use virtwall::Problem;
 
-/// Hits nearer than this are taken for the start itself, metres.
+/// Hits nearer than this are ignored, metres.
 const CLEAR: f64 = 1e-3;
 
-/// The distance of the nearest polygon beyond that length.
+/// The distance of the nearest polygon beyond [`CLEAR`].
 pub fn end(problem: &Problem, _: &Emitter, ray: &Ray) -> Option<f64> {
     let beyond = Ray::new(ray.at(CLEAR), ray.direction);
     let polygons = 0..problem.space.scene.polygons.len() as u32;

@@ -1,13 +1,13 @@
-//! Faces taken as a file has them.
+//! Faces used as the file has them, without repair.
 
 use std::fs;
 
 use radiosity::glam::DVec3;
 
-use crate::bench::Bench;
+use crate::cases::naive_method::MAX_RAYS;
+use crate::checks::casting::{rays, sources};
 use crate::finding::Count;
-use crate::rays::{rays, sources};
-use crate::twin::MOST_RAYS;
+use crate::runs::CaseRuns;
 
 /// A face with the normal of its first three corners.
 struct Face {
@@ -15,10 +15,10 @@ struct Face {
     normal: DVec3,
 }
 
-/// The faces of the case's OBJ file, which is to be as simple as OBJ files can be.
-fn read(bench: &Bench) -> Result<Vec<Face>, String> {
-    let name = bench.scene_file.display();
-    let text = fs::read_to_string(&bench.scene_file).map_err(|error| format!("{name}: {error}"))?;
+/// The faces of the OBJ file of the case. Only plain `v` and `f` lines are understood.
+fn read(runs: &CaseRuns) -> Result<Vec<Face>, String> {
+    let name = runs.scene_file.display();
+    let text = fs::read_to_string(&runs.scene_file).map_err(|error| format!("{name}: {error}"))?;
     let mut points = Vec::new();
     let mut faces = Vec::new();
     for line in text.lines() {
@@ -44,7 +44,7 @@ fn read(bench: &Bench) -> Result<Vec<Face>, String> {
 }
 
 impl Face {
-    /// Whether a ray hits it: the plane, then left of every edge.
+    /// Whether a ray hits the face: it meets the plane, left of every edge.
     fn is_hit(&self, origin: DVec3, direction: DVec3) -> bool {
         let distance = (self.corners[0] - origin).dot(self.normal) / direction.dot(self.normal);
         let point = origin + direction * distance;
@@ -54,14 +54,14 @@ impl Face {
     }
 }
 
-/// Rays that hit none of them.
-pub fn leaks(bench: &Bench) -> Result<Count, String> {
-    let faces = read(bench)?;
+/// Rays that hit no face.
+pub fn leaks(runs: &CaseRuns) -> Result<Count, String> {
+    let faces = read(runs)?;
     let mut count = Count::default();
-    for trial in &bench.trials {
-        let origin = trial.problem.space.scene.origin;
-        for source in sources(bench, trial, MOST_RAYS) {
-            for ray in rays(bench, &trial.problem, &source) {
+    for run in &runs.list {
+        let origin = run.problem.space.scene.origin;
+        for source in sources(runs, run, MAX_RAYS) {
+            for ray in rays(runs, &run.problem, &source) {
                 let hit = |face: &Face| face.is_hit(ray.origin + origin, ray.direction);
                 count = count.and(Count { wrong: u64::from(!faces.iter().any(hit)), of: 1 });
             }
@@ -70,7 +70,7 @@ pub fn leaks(bench: &Bench) -> Result<Count, String> {
     Ok(count)
 }
 
-/// Normals that are no numbers.
-pub fn no_normals(bench: &Bench) -> Result<u64, String> {
-    Ok(read(bench)?.iter().filter(|face| face.normal.is_nan()).count() as u64)
+/// The number of normals that are NaN.
+pub fn no_normals(runs: &CaseRuns) -> Result<u64, String> {
+    Ok(read(runs)?.iter().filter(|face| face.normal.is_nan()).count() as u64)
 }

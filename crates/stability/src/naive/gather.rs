@@ -1,25 +1,25 @@
-//! Receivers that look for a lamp.
+//! Receivers that cast rays to find a lamp.
 
 use radiosity::{End, Ray};
 
-use crate::bench::Bench;
-use crate::direct::{lamps_and_others, sees};
+use crate::checks::casting::{follow, rays};
+use crate::checks::direct::{lamps_and_others, sees};
 use crate::finding::Count;
-use crate::rays::{follow, rays};
+use crate::runs::CaseRuns;
 
-/// Patches that see a lamp and that find it with none of their own rays.
-pub fn dark(bench: &Bench) -> Count {
+/// Patches that see a lamp but hit it with none of their own rays.
+pub fn dark(runs: &CaseRuns) -> Count {
     let mut count = Count::default();
-    for trial in &bench.trials {
-        let problem = &*trial.problem;
-        let (lamps, others) = lamps_and_others(bench, trial);
+    for run in &runs.list {
+        let problem = &*run.problem;
+        let (lamps, others) = lamps_and_others(runs, run);
         for lamp in &lamps {
             for patch in others.iter().filter(|patch| sees(problem, patch, lamp)) {
                 let finds = |ray: &Ray| {
                     let end = follow(problem, patch, ray);
                     matches!(end, End::Hit { polygon, .. } if polygon == lamp.polygon)
                 };
-                let dark = !rays(bench, problem, patch).iter().any(finds);
+                let dark = !rays(runs, problem, patch).iter().any(finds);
                 count = count.and(Count { wrong: u64::from(dark), of: 1 });
             }
         }

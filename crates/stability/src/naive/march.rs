@@ -1,35 +1,35 @@
-//! Rays handed from environment to environment without a rule for those that meet an edge.
+//! Rays passed from environment to environment without a rule for rays that meet an edge.
 
 use radiosity::{Bounds, Ray, Side};
 use virtwall::Problem;
 
-use crate::bench::Bench;
+use crate::cases::naive_method::MAX_RAYS;
+use crate::checks::casting::{nearest, rays, sources};
 use crate::finding::Count;
-use crate::rays::{nearest, rays, sources};
-use crate::twin::MOST_RAYS;
+use crate::runs::CaseRuns;
 
 /// Which rays an interface passes on.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Interface {
-    /// Those that meet its face or the edges of that.
+    /// Those that meet its face, edges included.
     Closed,
-    /// Those that meet its face and not the edges of that.
+    /// Those that meet its face, edges excluded.
     Open,
-    /// Those that meet its plane.
+    /// Those that meet its plane anywhere.
     Unbounded,
 }
 
-/// A ray ends at most so often before it is given up: each edge may double it.
+/// Following a ray stops after it has ended this many times, since each edge may double it.
 const MOST_ENDS: u32 = 64;
 
-/// Rays that do not end exactly once.
-pub fn owners(bench: &Bench, interface: Interface) -> Count {
+/// Rays that end not at all or more than once.
+pub fn owners(runs: &CaseRuns, interface: Interface) -> Count {
     let mut count = Count::default();
-    for trial in &bench.trials {
-        for source in sources(bench, trial, MOST_RAYS) {
-            for ray in rays(bench, &trial.problem, &source) {
-                let hit = nearest(&trial.problem, &source, &ray).unwrap_or(f64::INFINITY);
-                let march = March { problem: &trial.problem, ray, hit, interface };
+    for run in &runs.list {
+        for source in sources(runs, run, MAX_RAYS) {
+            for ray in rays(runs, &run.problem, &source) {
+                let hit = nearest(&run.problem, &source, &ray).unwrap_or(f64::INFINITY);
+                let march = March { problem: &run.problem, ray, hit, interface };
                 let ends = march.ends(source.environment, None, 0);
                 count = count.and(Count { wrong: u64::from(ends != 1), of: 1 });
             }
@@ -47,7 +47,7 @@ struct March<'a> {
 }
 
 impl March<'_> {
-    /// How often the ray ends in an environment that it entered by a side and in those behind it.
+    /// How often the ray ends in an environment, which it entered through `from`, and in those behind it.
     fn ends(&self, environment: u32, from: Option<Side>, depth: u32) -> u32 {
         let here = &self.problem.environments[environment as usize];
         let bounds = self.problem.space.grid.bounds(&here.block);
@@ -69,7 +69,7 @@ impl March<'_> {
         ends
     }
 
-    /// Whether the ray's hit lies in an environment, by the same rule at its interfaces.
+    /// Whether the hit is in an environment, by the same rule at its interfaces.
     fn ends_in(&self, environment: u32, bounds: &Bounds) -> bool {
         let (here, point) =
             (&self.problem.environments[environment as usize], self.ray.at(self.hit));

@@ -4,21 +4,21 @@ use radiosity::glam::{DVec3, Vec3};
 use radiosity::{Emitter, Ray, Scene};
 use virtwall::Problem;
 
-use crate::bench::Bench;
+use crate::cases::naive_method::MAX_RAYS;
+use crate::checks::casting::{rays, sources};
 use crate::finding::Count;
-use crate::rays::{rays, sources};
-use crate::twin::MOST_RAYS;
+use crate::runs::CaseRuns;
 
-/// Whose the corners of a polygon are.
+/// How the corners of a polygon are rounded.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Corners {
-    /// Rounded once, the same for all that share them.
+    /// Each corner once, so that neighbours share it.
     Shared,
-    /// The first corner rounded, the others that and a rounded edge.
+    /// The first corner and the edges from it, so that neighbours differ.
     Own,
 }
 
-/// A corner and the edges from it, and the polygon.
+/// A corner, the edges from it, and the polygon to which the triangle belongs.
 struct Triangle {
     corner: Vec3,
     edges: [Vec3; 2],
@@ -44,7 +44,7 @@ fn triangles(scene: &Scene, corners: Corners) -> Vec<Triangle> {
     triangles
 }
 
-/// Möller and Trumbore 1997.
+/// The distance of a hit, by Möller and Trumbore (1997).
 fn distance(triangle: &Triangle, origin: Vec3, direction: Vec3) -> Option<f32> {
     let [a, b] = triangle.edges;
     let p = direction.cross(b);
@@ -57,15 +57,15 @@ fn distance(triangle: &Triangle, origin: Vec3, direction: Vec3) -> Option<f32> {
     (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && distance > 0.0).then_some(distance)
 }
 
-/// Rays that hit no triangle, on the last trial's scene: that which was changed most.
-pub fn leaks(bench: &Bench, corners: Corners) -> Count {
-    let Some(trial) = bench.trials.last() else { return Count::default() };
-    let scene = &trial.problem.space.scene;
+/// Rays that hit no triangle of the scene of the last run, which is the most changed one.
+pub fn leaks(runs: &CaseRuns, corners: Corners) -> Count {
+    let Some(run) = runs.list.last() else { return Count::default() };
+    let scene = &run.problem.space.scene;
     let triangles = triangles(scene, corners);
     let mut count = Count::default();
-    for source in sources(bench, trial, MOST_RAYS) {
+    for source in sources(runs, run, MAX_RAYS) {
         let origin = (source.centre + scene.origin).as_vec3();
-        for ray in rays(bench, &trial.problem, &source) {
+        for ray in rays(runs, &run.problem, &source) {
             let direction = ray.direction.as_vec3();
             let hit = |triangle: &&Triangle| {
                 triangle.polygon != source.polygon
@@ -78,7 +78,7 @@ pub fn leaks(bench: &Bench, corners: Corners) -> Count {
     count
 }
 
-/// The nearest polygon; the last one of those at the same distance.
+/// The nearest polygon; of several at equal distance the last one.
 pub fn last(problem: &Problem, source: &Emitter, ray: &Ray) -> Option<u32> {
     let (origin, direction) = (ray.origin.as_vec3(), ray.direction.as_vec3());
     let mut nearest: Option<(f32, u32)> = None;

@@ -1,5 +1,5 @@
-//! The textbook's walk through a grid (Amanatides and Woo 1987), taken as it is printed: distances add
-//! up step by step, and what divides by zero is left to turn out well.
+//! The grid walk of Amanatides and Woo (1987) exactly as published: distances are accumulated step by step,
+//! and components that are zero are divided by.
 
 use radiosity::{Emitter, Ray};
 use virtwall::Problem;

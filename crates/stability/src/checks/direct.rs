@@ -1,19 +1,19 @@
-//! Light straight from the lamps: who gets it, and how much.
+//! Direct light from the lamps.
 
 use radiosity::{Emitter, End, Ray};
 use virtwall::Problem;
 
-use crate::bench::{Bench, Trial};
+use crate::checks::casting::{emits, follow, shoot_through, sources};
 use crate::finding::Count;
-use crate::rays::{emits, follow, shoot_through, sources};
+use crate::runs::{CaseRun, CaseRuns};
 
-/// Patches that emit, as sources, and those that do not.
-pub fn lamps_and_others(bench: &Bench, trial: &Trial) -> (Vec<Emitter>, Vec<Emitter>) {
-    let emits = |source: &Emitter| emits(&trial.problem, (source.environment, source.patch));
-    sources(bench, trial, u64::MAX).into_iter().partition(emits)
+/// Patches that emit, and those that do not, as sources.
+pub fn lamps_and_others(runs: &CaseRuns, run: &CaseRun) -> (Vec<Emitter>, Vec<Emitter>) {
+    let emits = |source: &Emitter| emits(&run.problem, (source.environment, source.patch));
+    sources(runs, run, u64::MAX).into_iter().partition(emits)
 }
 
-/// Whether a patch and a lamp see each other's centres.
+/// Whether a patch sees the centre of a lamp.
 pub fn sees(problem: &Problem, patch: &Emitter, lamp: &Emitter) -> bool {
     let away = lamp.centre - patch.centre;
     let Some(direction) = away.try_normalize() else { return false };
@@ -24,14 +24,14 @@ pub fn sees(problem: &Problem, patch: &Emitter, lamp: &Emitter) -> bool {
     matches!(end, End::Hit { polygon, .. } if polygon == lamp.polygon)
 }
 
-/// Patches that see a lamp and that none of its rays finds.
-pub fn dark(bench: &Bench) -> Count {
+/// Patches that see a lamp but are hit by none of its rays.
+pub fn dark(runs: &CaseRuns) -> Count {
     let mut count = Count::default();
-    for trial in &bench.trials {
-        let (lamps, others) = lamps_and_others(bench, trial);
+    for run in &runs.list {
+        let (lamps, others) = lamps_and_others(runs, run);
         for lamp in &lamps {
-            let found = form_factors(&trial.problem, lamp);
-            for patch in others.iter().filter(|patch| sees(&trial.problem, patch, lamp)) {
+            let found = form_factors(&run.problem, lamp);
+            for patch in others.iter().filter(|patch| sees(&run.problem, patch, lamp)) {
                 let dark = found[patch.environment as usize][patch.patch as usize] == 0.0;
                 count = count.and(Count { wrong: u64::from(dark), of: 1 });
             }
@@ -40,7 +40,7 @@ pub fn dark(bench: &Bench) -> Count {
     count
 }
 
-/// Form factors by rays from a source to all patches, by environment.
+/// Form factors by rays from a source to all patches, by environment and patch.
 pub fn form_factors(problem: &Problem, source: &Emitter) -> Vec<Vec<f64>> {
     let empty = |environment: &radiosity::LocalEnvironment| vec![0.0; environment.patches.len()];
     let mut found: Vec<Vec<f64>> = problem.environments.iter().map(empty).collect();

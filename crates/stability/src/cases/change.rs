@@ -5,30 +5,30 @@ use radiosity::{Face, Scene, SceneError};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// A change to a scene: turned, then moved, its polygons in another order.
+/// A change to a scene: rotation, then translation, then another order of its polygons.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Change {
-    /// Turned.
+    /// A rotation.
     pub turn: Option<Turn>,
-    /// Moved so far along x, y and z, metres.
+    /// Translation along x, y and z, metres.
     pub shift: [f64; 3],
-    /// Whether its polygons, and the corners of each, come in another order.
+    /// Whether the polygons, and the corners of each, are reordered.
     pub reordered: bool,
 }
 
-/// A turn about an axis through the origin.
+/// A rotation about an axis through the origin.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Turn {
-    /// By so much, counter-clockwise.
+    /// Angle in degrees, counter-clockwise.
     pub degrees: f64,
-    /// The axis; any length but none.
+    /// The axis; any length but zero.
     pub about: [f64; 3],
 }
 
 impl Turn {
-    /// Its matrix, exactly a permutation with signs where that is meant.
+    /// The matrix; for multiples of 90° about an axis of coordinates exactly a signed permutation.
     fn matrix(self) -> DMat3 {
         let axis = DVec3::from(self.about).try_normalize().unwrap_or(DVec3::Z);
         let matrix = DMat3::from_axis_angle(axis, self.degrees.to_radians());
@@ -45,7 +45,7 @@ impl Change {
     /// The changed scene.
     ///
     /// # Errors
-    /// If it is none any more, as when it is moved too far.
+    /// If the result is not a valid scene, for example because it is too far from the origin.
     pub fn of(&self, scene: &Scene) -> Result<Scene, SceneError> {
         let (matrix, shift) = (self.matrix(), DVec3::from(self.shift));
         let face = |polygon: &radiosity::Polygon| Face {
@@ -58,18 +58,18 @@ impl Change {
             faces.reverse();
             faces.iter_mut().for_each(|face| face.points.rotate_left(2));
         }
-        // A two-sided polygon stands there twice already.
+        // The scene already has two polygons for each two-sided one.
         let mut materials = scene.materials.clone();
         materials.iter_mut().for_each(|material| material.two_sided = false);
         Ok(Scene::new(&faces, materials, scene.objects.clone())?.0)
     }
 
-    /// Where a point of the changed scene, in world coordinates, was before.
+    /// The original position of a point of the changed scene, world coordinates.
     pub fn undone(&self, point: DVec3) -> DVec3 {
         self.matrix().transpose() * (point - DVec3::from(self.shift))
     }
 
-    /// In words.
+    /// A description for the labels of runs.
     pub fn label(&self) -> String {
         let mut parts = Vec::new();
         if let Some(Turn { degrees, about: [x, y, z] }) = self.turn {

@@ -1,4 +1,4 @@
-//! A case as its file says it.
+//! The file of a case.
 
 use std::path::Path;
 
@@ -7,76 +7,77 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, generate::SchemaSettings, js
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
-use crate::change::Change;
-use crate::right::Right;
-use crate::twin::Twin;
+use crate::cases::change::Change;
+use crate::cases::expected::Expected;
+use crate::cases::naive_method::NaiveMethod;
 
-/// A failure, and how it is seen that it does not happen here.
+/// A failure of other methods, and an experiment that shows that it does not happen here.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "Virtwall stability case")]
 pub struct Case {
-    /// Where this schema lies, for editors.
+    /// Path or URL of the JSON schema, for editors.
     #[serde(rename = "$schema", default)]
     #[allow(dead_code, reason = "for editors")]
     schema: Option<String>,
-    /// What fails, in a line.
+    /// The failure in one line.
     pub title: String,
-    /// Why it fails where nobody takes care.
+    /// Why careless methods fail.
     pub failure: String,
-    /// What is done about it here.
+    /// How this program avoids the failure.
     pub remedy: String,
-    /// Which list of failures names it.
+    /// The list on the page to which the case belongs.
     pub listed: Listed,
-    /// An experiment without its title, as it would stand one folder up; what it sweeps are runs of the
-    /// case.
+    /// An experiment without a title. Paths are relative to the parent folder. Each point of its sweep
+    /// is a run of the case.
     #[schemars(schema_with = "object")]
     pub experiment: Value,
-    /// The scene, changed: each makes the case's runs once more.
+    /// Changes to the scene. All runs are repeated on each changed scene.
     #[serde(default)]
     pub changes: Vec<Change>,
-    /// Rays to cast on each run's scene, about; the naive twin casts up to 200,000 of them. Default:
-    /// those of every patch.
+    /// Approximate number of rays to cast on the scene of each run; a naive method casts at most
+    /// 200,000. Default: the rays of every patch.
     #[serde(default)]
     pub rays: Option<u64>,
-    /// Whether rays come from lamps alone, in place of all patches.
+    /// Whether only lamps cast rays, instead of all patches.
     #[serde(default)]
     pub lamps_only: bool,
-    /// Whether rays are aimed at the corners of cells and at corners and edges of polygons, in place of
-    /// the hemisphere's.
+    /// Whether rays are aimed at corners of cells and at corners and edges of polygons, instead of in
+    /// the directions of the hemisphere.
     #[serde(default)]
     pub aimed: bool,
-    /// The naive method: a slow twin.
+    /// The naive method to compare with.
     #[serde(default)]
-    pub naive: Option<Twin>,
-    /// The naive method: this program under other settings, laid over the experiment.
+    pub naive: Option<NaiveMethod>,
+    /// Settings that make this program naive: fields that replace those of the experiment.
     #[serde(default)]
     #[schemars(schema_with = "object")]
     pub naive_settings: Overlay,
     /// What is right.
-    pub right: Right,
+    #[serde(rename = "right")]
+    pub expected: Expected,
 }
 
-/// Fields that go in the place of others.
+/// Fields that replace those of an experiment.
 pub type Overlay = Map<String, Value>;
 
-/// A list of failures.
+/// A list on the page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Listed {
-    /// Failures of which others' figures are known.
+    /// Failures that others have measured.
     Measured,
-    /// Places where such methods fail.
+    /// Situations in which such methods fail.
     Places,
-    /// Answers that are known, and what must not change them.
+    /// Known answers, and changes that must not affect them.
     Answers,
 }
 
 impl Listed {
-    /// All of them, in the page's order.
+    /// All lists, in the order of the page.
     pub const ALL: [Listed; 3] = [Listed::Measured, Listed::Places, Listed::Answers];
 
-    /// Its heading.
+    /// The heading on the page.
     pub fn heading(self) -> &'static str {
         match self {
             Listed::Measured => "Failures that others have measured",
@@ -90,17 +91,17 @@ fn object(_: &mut SchemaGenerator) -> Schema {
     json_schema!({ "type": "object" })
 }
 
-/// The schema of a case.
+/// The JSON schema of a case.
 pub fn case_schema() -> Value {
     let settings = SchemaSettings::draft2020_12().with(|s| s.inline_subschemas = true);
     Schema::to_value(settings.into_generator().into_root_schema_for::<Case>())
 }
 
 impl Case {
-    /// Reads a case and checks its own fields; the experiment is read when it is tried.
+    /// Reads a case and checks its own fields. The experiment is checked when its runs are prepared.
     ///
     /// # Errors
-    /// The first fault met.
+    /// The first fault found.
     pub fn read(path: &Path) -> Result<(Case, Document), Fault> {
         let document = Document::read(path)?;
         document.refuse_unknown_keys::<Case>()?;
@@ -112,10 +113,10 @@ impl Case {
         if case.naive.is_some() && !case.naive_settings.is_empty() {
             return wrong("naive_settings", "expected these or \"naive\", not both");
         }
-        if let Some(twin) = case.naive
-            && !case.right.asks(twin.measure())
+        if let Some(method) = case.naive
+            && !case.expected.asks(method.measure())
         {
-            let message = format!("it shows \"{}\"; expected that in \"right\"", twin.measure());
+            let message = format!("it shows \"{}\"; expected that in \"right\"", method.measure());
             return wrong("naive", &message);
         }
         Ok((case, document))

@@ -1,0 +1,129 @@
+//! Rays that are lost, claimed twice, or end in the wrong place.
+
+use std::collections::BTreeMap;
+
+use radiosity::{Emitter, End, Mask, Ray};
+use virtwall::Problem;
+
+use crate::checks::casting::{follow, nearest, rays, shoot_through, sources};
+use crate::finding::Count;
+use crate::runs::CaseRuns;
+
+/// Rays that leave closed scenes.
+pub fn leaks(runs: &CaseRuns) -> Count {
+    let mut count = Count::default();
+    for run in &runs.list {
+        for source in sources(runs, run, u64::MAX) {
+            count = count.and(if runs.case.aimed {
+                let rays = rays(runs, &run.problem, &source);
+                let leaks = |ray: &&Ray| ours(&run.problem, &source, ray).is_none();
+                Count { wrong: rays.iter().filter(leaks).count() as u64, of: rays.len() as u64 }
+            } else {
+                shot_leaks(&run.problem, &source)
+            });
+        }
+    }
+    count
+}
+
+/// The same for the hemisphere of one source, whose pixels all have the same form factor.
+fn shot_leaks(problem: &Problem, source: &Emitter) -> Count {
+    let (mut lost, pixels) = (0.0, problem.hemisphere.pixels());
+    shoot_through(problem, source, |_, shot, _| lost += shot.escaped);
+    Count { wrong: (lost * f64::from(pixels)).round() as u64, of: u64::from(pixels) }
+}
+
+/// Pixels that end not at all or more than once over all environments.
+pub fn owners(runs: &CaseRuns) -> Count {
+    let mut count = Count::default();
+    for run in &runs.list {
+        let pixels = run.problem.hemisphere.pixels();
+        for source in sources(runs, run, u64::MAX) {
+            let mut ends = vec![0_u32; pixels as usize];
+            shoot_through(&run.problem, &source, |_, shot, mask| {
+                let mut left = Mask::none(pixels);
+                shot.outgoing.iter().flatten().for_each(|outgoing| left.merge(&outgoing.mask));
+                mask.ones().filter(|&pixel| !left.get(pixel)).for_each(|p| ends[p as usize] += 1);
+            });
+            let wrong = ends.iter().filter(|&&ends| ends != 1).count() as u64;
+            count = count.and(Count { wrong, of: u64::from(pixels) });
+        }
+    }
+    count
+}
+
+/// Rays that `ends` at another distance than that of the nearest polygon.
+pub fn astray(
+    runs: &CaseRuns,
+    most: u64,
+    ends: impl Fn(&Problem, &Emitter, &Ray) -> Option<f64>,
+) -> Count {
+    let mut count = Count::default();
+    for run in &runs.list {
+        let (problem, tolerance) = (&*run.problem, run.problem.space.scene.tolerance());
+        for source in sources(runs, run, most) {
+            for ray in rays(runs, problem, &source) {
+                let right = match (nearest(problem, &source, &ray), ends(problem, &source, &ray)) {
+                    (Some(nearest), Some(end)) => (end - nearest).abs() <= tolerance,
+                    (nearest, end) => nearest.is_none() && end.is_none(),
+                };
+                count = count.and(Count { wrong: u64::from(!right), of: 1 });
+            }
+        }
+    }
+    count
+}
+
+/// The distance at which this program ends a ray.
+pub fn ours(problem: &Problem, source: &Emitter, ray: &Ray) -> Option<f64> {
+    match follow(problem, source, ray) {
+        End::Hit { distance, .. } => Some(distance),
+        End::Leaves(_) => None,
+    }
+}
+
+/// Of the rays that meet several polygons of one plane at once, those that end on another polygon than the
+/// majority.
+pub fn torn(
+    runs: &CaseRuns,
+    most: u64,
+    end: impl Fn(&Problem, &Emitter, &Ray) -> Option<u32>,
+) -> Count {
+    let mut count = Count::default();
+    for run in &runs.list {
+        let problem = &*run.problem;
+        let mut ends: BTreeMap<Vec<u32>, BTreeMap<Option<u32>, u64>> = BTreeMap::new();
+        for source in sources(runs, run, most) {
+            for ray in rays(runs, problem, &source) {
+                let met = met_at_once(problem, &source, &ray);
+                if met.len() > 1 {
+                    let end = end(problem, &source, &ray);
+                    *ends.entry(met).or_default().entry(end).or_default() += 1;
+                }
+            }
+        }
+        for ends in ends.values() {
+            let of = ends.values().sum();
+            count = count.and(Count { wrong: of - ends.values().max().unwrap_or(&0), of });
+        }
+    }
+    count
+}
+
+/// The polygons whose fronts a ray meets first, all at one distance within the tolerance.
+fn met_at_once(problem: &Problem, source: &Emitter, ray: &Ray) -> Vec<u32> {
+    let facets = &problem.space.facets;
+    let Some(first) = nearest(problem, source, ray) else { return Vec::new() };
+    let reach = first + problem.space.scene.tolerance();
+    let polygons = 0..problem.space.scene.polygons.len() as u32;
+    let others = polygons.filter(|&p| p != source.polygon && facets.faces(p, ray));
+    others.filter(|&p| facets.hit(p, ray, reach).is_some()).collect()
+}
+
+/// The polygon on which this program ends a ray.
+pub fn our_polygon(problem: &Problem, source: &Emitter, ray: &Ray) -> Option<u32> {
+    match follow(problem, source, ray) {
+        End::Hit { polygon, .. } => Some(polygon),
+        End::Leaves(_) => None,
+    }
+}

@@ -1,0 +1,109 @@
+//! The runs of a case: on its scene, and on each changed scene.
+
+use std::cell::OnceCell;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use lab::{Document, Fault, Trials};
+use serde_json::Value;
+use virtwall::{Outcome, Problem};
+
+use crate::cases::case::{Case, Overlay};
+use crate::cases::change::Change;
+
+/// The runs of a case. Each is simulated when its outcome is first asked for.
+pub struct CaseRuns<'a> {
+    /// The case.
+    pub case: &'a Case,
+    /// Warnings about repairs to its scenes.
+    pub warnings: Vec<String>,
+    /// All runs on the original scene, then all runs on each changed scene.
+    pub list: Vec<CaseRun>,
+    trials: Trials,
+    /// The file of the scene.
+    pub scene_file: PathBuf,
+}
+
+/// One run on one scene.
+pub struct CaseRun {
+    /// Its swept fields and its change, for messages.
+    pub label: String,
+    /// The change to the scene; the default is none.
+    pub change: Change,
+    /// The scene, meshed and cut.
+    pub problem: Arc<Problem>,
+    /// Its number among the trials of the experiment.
+    number: usize,
+    outcome: OnceCell<Result<Outcome, String>>,
+}
+
+impl<'a> CaseRuns<'a> {
+    /// Prepares a case. Fields of `overlay` replace those of its experiment; `path` is the case's file.
+    ///
+    /// # Errors
+    /// The fault for which the experiment is refused.
+    pub fn new(
+        case: &'a Case,
+        document: &Document,
+        path: &Path,
+        overlay: &Overlay,
+    ) -> Result<CaseRuns<'a>, Fault> {
+        let mut experiment = document.clone();
+        experiment.value = case.experiment.clone();
+        let title = Value::String(case.title.clone());
+        lay_over(&mut experiment.value, overlay.clone());
+        lay_over(&mut experiment.value, [("title".to_owned(), title)].into_iter().collect());
+        let folder = path.parent().and_then(Path::parent).unwrap_or(Path::new(""));
+        let name = path.file_name().unwrap_or_default();
+        let trials = Trials::of(&experiment, &folder.join(name))?;
+        let mut list = Vec::new();
+        for change in [Change::default()].iter().chain(&case.changes) {
+            for number in 0..trials.count() {
+                let problem = if change.label().is_empty() {
+                    Arc::clone(trials.problem(number))
+                } else {
+                    let changed =
+                        change.of(&trials.problem(number).space.scene).map_err(|error| {
+                            document.fault(&lab::Place::of("changes"), error.to_string())
+                        })?;
+                    trials.problem_of(number, &changed)?
+                };
+                let labels = [trials.label(number), change.label()];
+                let labels: Vec<String> = labels.into_iter().filter(|l| !l.is_empty()).collect();
+                let (label, outcome) = (labels.join(", "), OnceCell::new());
+                list.push(CaseRun { label, change: *change, problem, number, outcome });
+            }
+        }
+        let scene = experiment.value["scene"].as_str().unwrap_or_default();
+        let (warnings, scene_file) = (trials.warnings().to_vec(), folder.join(scene));
+        Ok(CaseRuns { case, warnings, list, trials, scene_file })
+    }
+
+    /// The outcome of a run.
+    ///
+    /// # Errors
+    /// The reason why the run did not end.
+    pub fn outcome<'t>(&self, run: &'t CaseRun) -> Result<&'t Outcome, String> {
+        let found = run.outcome.get_or_init(|| self.trials.outcome(run.number, &run.problem));
+        found.as_ref().map_err(Clone::clone)
+    }
+
+    /// All runs with their outcomes.
+    ///
+    /// # Errors
+    /// The reason why a run did not end.
+    pub fn outcomes(&self) -> Result<Vec<(&CaseRun, &Outcome)>, String> {
+        self.list.iter().map(|run| Ok((run, self.outcome(run)?))).collect()
+    }
+}
+
+/// Merges fields into an object; objects in objects are merged field by field.
+fn lay_over(value: &mut Value, fields: Overlay) {
+    let Value::Object(object) = value else { return };
+    for (name, field) in fields {
+        match (object.get_mut(&name), field) {
+            (Some(inner @ Value::Object(_)), Value::Object(fields)) => lay_over(inner, fields),
+            (_, field) => _ = object.insert(name, field),
+        }
+    }
+}
