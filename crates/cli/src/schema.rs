@@ -17,6 +17,8 @@ enum Kind {
     Experiment,
     /// Machine descriptions
     Machine,
+    /// Columns of runs.csv
+    Runs,
     /// Scene descriptions
     Scene,
     /// Cases for `virtwall stability`
@@ -30,6 +32,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let schema = match arguments.kind {
         Kind::Experiment => lab::experiment_schema(),
         Kind::Machine => multicomputer::machine_schema(),
+        Kind::Runs => lab::runs_schema(),
         Kind::Scene => lab::scene_schema(),
         Kind::Stability => stability::case_schema(),
         Kind::Trace => multicomputer::trace_schema(),

@@ -55,6 +55,7 @@ pub use run::runner::{Endings, Event, Options, Watch, carry_out};
 pub use run::shot_files::ShotFiles;
 pub use run::traces::Traces;
 pub use run::viewing::Viewing;
+pub use table::columns::runs_schema;
 pub use table::runs_csv::Table;
 pub use viewer::LivePage;
 

@@ -29,6 +29,11 @@ fn scene_schema_is_shipped() {
 }
 
 #[test]
+fn schema_of_runs_csv_is_shipped() {
+    shipped_is("experiments/schemas/runs.json", &lab::runs_schema());
+}
+
+#[test]
 fn every_field_is_described_and_every_leaf_can_be_swept() {
     let schema = lab::experiment_schema();
     let fields = schema["properties"].as_object().unwrap();

@@ -69,6 +69,7 @@ fn observed(
         radiosity_updates: true,
         merge_masks: false,
         mapping: Mapping::Blocks,
+        seed: 0,
         shooting: Shooting::default(),
     };
     let run = Run {
@@ -87,12 +88,16 @@ fn recorded_run<'a>(
     recording: &'a LightRecording,
 ) -> RecordedRun<'a> {
     RecordedRun {
-        label: format!("room, {} processors", recording.processors()),
+        label: format!("room, {} processors", recording.processors(), 0),
         scene: "room".to_owned(),
         group: 0,
         problem,
         machine,
-        owners: Mapping::Blocks.owners(problem.environments.len() as u32, recording.processors()),
+        owners: Mapping::Blocks.owners(
+            problem.environments.len() as u32,
+            recording.processors(),
+            0,
+        ),
         answer: None,
         published: None,
         recording,

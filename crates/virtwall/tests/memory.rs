@@ -56,6 +56,7 @@ fn bytes(floors: u16) -> [f64; 3] {
         radiosity_updates: true,
         merge_masks: false,
         mapping: Mapping::Blocks,
+        seed: 0,
         shooting: Shooting::default(),
     };
     HEAP.reset_peak_usage();

@@ -11,7 +11,7 @@ use virtwall::{KeptShots, Problem};
 
 use crate::accuracy::answer::Answer;
 use crate::accuracy::errors::{Radiosity, Yardstick};
-use crate::engine::error_causes::Causes;
+use crate::engine::error_figures::Causes;
 use crate::engine::knobs;
 use crate::engine::simulator::{self, On};
 use crate::experiment::fields::{Experiment, Stop};

@@ -1,31 +1,13 @@
-//! How far a run's radiosities are from the answer, as columns of the results.
+//! How far a run's radiosities are from the answer.
 
 use std::sync::Arc;
 
 use radiosity::Rgb;
 use reference::{Difference, Overlaps, Patches};
-use serde::{Deserialize, Serialize};
 use virtwall::Problem;
 
 use crate::accuracy::answer::Answer;
-use crate::engine::error_causes::Causes;
-
-/// The columns of runs.csv: [`ErrorFigures`] by name.
-pub const COLUMNS: [&str; 3] = ["error_l2", "error_max", "reference_error"];
-
-/// How far a run's radiosities are from the answer, relative to what is reflected, as
-/// [`Difference`] says.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ErrorFigures {
-    /// Area-weighted root mean square.
-    pub l2: f64,
-    /// The greatest of any patch and colour.
-    pub maximum: f64,
-    /// What the answer says of its own error.
-    pub reference: f64,
-    /// What makes up the first, if that was asked for.
-    pub causes: Option<Causes>,
-}
+use crate::engine::error_figures::ErrorFigures;
 
 /// Radiosities of a problem's patches, by environment.
 pub type Radiosity = [Vec<Rgb>];
@@ -77,17 +59,4 @@ impl Yardstick {
 pub fn laid_on(answer: &Answer, problem: &Problem) -> Vec<Rgb> {
     let own = Patches::of_all(&problem.space, &problem.environments);
     Overlaps::new(&own, &answer.patches).means(&answer.radiosity)
-}
-
-impl ErrorFigures {
-    /// The cell of a column.
-    pub fn cell(&self, column: &str) -> Option<String> {
-        let value = match column {
-            "error_l2" => self.l2,
-            "error_max" => self.maximum,
-            "reference_error" => self.reference,
-            _ => return self.causes?.cell(column),
-        };
-        Some(format!("{value:.6e}"))
-    }
 }

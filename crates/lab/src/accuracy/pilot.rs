@@ -6,13 +6,12 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use multicomputer::Machine;
-use radiosity::{LocalEnvironment, PatchSize, Rgb, Space};
+use radiosity::{HemisphereKind, LocalEnvironment, PatchSize, Rgb, Space};
 use reference::{Difference, Overlaps, Patches, Testimony, Witnesses};
-use virtwall::{KeptShots, Problem};
+use virtwall::{KeptShots, Problem, Selection};
 
 use crate::engine::simulator::{self, Stopped};
-use crate::experiment::fields::{Experiment, Selection};
-use crate::experiment::hemisphere::Directions;
+use crate::experiment::fields::Experiment;
 use crate::experiment::source_split::SplitFields;
 use crate::files::fault::WrongField;
 use crate::files::quantity::{Fraction, Length};
@@ -178,7 +177,7 @@ impl<'a> Pilots<'a> {
         point.accuracy = None;
         point.patch_size = length(self.settings.patch_size * knobs.mesh);
         point.emitter_patch_size = length(self.settings.emitter_patch_size * knobs.mesh);
-        point.hemisphere.directions = Directions::Fibonacci;
+        point.hemisphere.directions = HemisphereKind::Fibonacci;
         point.hemisphere.pixels = knobs.pixels;
         point.source_split = SplitFields { most: knobs.split, ..SplitFields::default() };
         point.overshoot = knobs.overshoot;
@@ -259,7 +258,7 @@ impl<'a> Pilots<'a> {
                 let mut settings = self.settings.clone();
                 settings.patch_size *= knobs.mesh;
                 settings.emitter_patch_size *= knobs.mesh;
-                settings.directions = Directions::Fibonacci;
+                settings.directions = HemisphereKind::Fibonacci;
                 settings.pixels = knobs.pixels;
                 let problem = problem::problem(self.scene, &settings);
                 let problem = problem.map_err(|(field, message)| format!("{field}: {message}"))?;

@@ -2,21 +2,6 @@
 
 use crate::accuracy::pilot::Knobs;
 
-/// The columns of runs.csv.
-pub const COLUMNS: [&str; 11] = [
-    "target_l2",
-    "predicted_l2",
-    "predicted_deviation",
-    "predicted_directions",
-    "predicted_centre",
-    "predicted_mesh",
-    "predicted_stopping",
-    "predicted_time_s",
-    "sweep_time_s",
-    "cost_over_sweep",
-    "knobs",
-];
-
 /// A setting that was found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tuned {
@@ -69,28 +54,6 @@ impl Causes {
 }
 
 impl Tuned {
-    /// The cell of a column.
-    pub fn cell(&self, column: &str) -> Option<String> {
-        let Causes { directions, centre, mesh, stopping } = self.predicted;
-        let value = match column {
-            "target_l2" => return Some(self.target.to_string()),
-            "predicted_l2" => self.error,
-            "predicted_deviation" => self.deviation,
-            "predicted_directions" => directions,
-            "predicted_centre" => centre,
-            "predicted_mesh" => mesh,
-            "predicted_stopping" => stopping,
-            "predicted_time_s" => return Some(format!("{:.6}", self.time_s)),
-            "sweep_time_s" => return self.sweep_time_s.map(|time_s| format!("{time_s:.6}")),
-            "cost_over_sweep" => {
-                return self.sweep_time_s.map(|time_s| format!("{:.4}", self.time_s / time_s));
-            }
-            "knobs" => return Some(self.knobs.to_string()),
-            _ => return None,
-        };
-        Some(format!("{value:.6e}"))
-    }
-
     /// What was chosen for a scene and why, for people.
     pub fn sentence(&self, scene: &str) -> String {
         let percent = |share: f64| format!("{:.2} %", 100.0 * share);

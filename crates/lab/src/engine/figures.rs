@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::accuracy::errors::ErrorFigures;
+use crate::engine::error_figures::ErrorFigures;
 use crate::engine::message_layer::MessageLayerFigures;
 use crate::engine::network::NetworkFigures;
 use crate::engine::start_up::StartUpFigures;

@@ -3,17 +3,6 @@
 use multicomputer::{LayerAccount, Machine, MessageLayer};
 use serde::{Deserialize, Serialize};
 
-/// The columns of runs.csv: [`MessageLayerFigures`] by name.
-pub const COLUMNS: [&str; 7] = [
-    "packing_s",
-    "copying_s",
-    "waiting_for_room_s",
-    "coprocessor_s",
-    "unposted_messages",
-    "held_messages",
-    "buffer_bytes_most",
-];
-
 /// What the message layer did on all compute nodes, besides overheads.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MessageLayerFigures {
@@ -49,21 +38,6 @@ impl MessageLayerFigures {
             unposted_messages: account.unposted_messages,
             held_messages: account.held_messages,
             buffer_bytes_most: account.buffer_bytes_most,
-        }
-    }
-
-    /// The cell of a column.
-    pub fn cell(&self, column: &str) -> Option<String> {
-        let seconds = |seconds: f64| Some(format!("{seconds:.9}"));
-        match column {
-            "packing_s" => seconds(self.packing_s),
-            "copying_s" => seconds(self.copying_s),
-            "waiting_for_room_s" => seconds(self.waiting_for_room_s),
-            "coprocessor_s" => seconds(self.coprocessor_s),
-            "unposted_messages" => Some(self.unposted_messages.to_string()),
-            "held_messages" => Some(self.held_messages.to_string()),
-            "buffer_bytes_most" => Some(self.buffer_bytes_most.to_string()),
-            _ => None,
         }
     }
 }

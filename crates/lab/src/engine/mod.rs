@@ -6,9 +6,9 @@
 //! - [`figures`]: What one run found.
 //! - [`message_layer`]: Figures of the message layer.
 //! - [`start_up`]: Figures of the start-up.
-//! - [`error_causes`]: Figures of the causes of an error.
+//! - [`error_figures`]: The error of a run, and its parts.
 
-pub mod error_causes;
+pub mod error_figures;
 pub mod figures;
 pub mod knobs;
 pub mod message_layer;

@@ -20,7 +20,7 @@ use crate::engine::message_layer::{self, MessageLayerFigures};
 use crate::engine::network;
 use crate::engine::start_up::StartUpFigures;
 use crate::experiment::display::DisplayFigures;
-use crate::experiment::fields::{self as fields, Experiment};
+use crate::experiment::fields::Experiment;
 use crate::experiment::node_memory;
 use crate::files::fault::Fault;
 use crate::files::find::Found;
@@ -291,35 +291,23 @@ fn figures(problem: &Problem, outcome: &Outcome, virtual_time: bool) -> Figures 
 /// The processor of each environment at one point of an experiment.
 pub fn owners(point: &Experiment, problem: &Problem) -> Vec<usize> {
     let environments = problem.environments.len() as u32;
-    rules(point).mapping.owners(environments, point.processors as usize)
+    point.mapping.owners(environments, point.processors as usize, point.seed)
 }
 
 /// The rules that a point of an experiment sets.
 fn rules(point: &Experiment) -> Rules {
     Rules {
-        selection: match point.selection {
-            fields::Selection::Energy => virtwall::Selection::Energy,
-            fields::Selection::DeltaRadiosity => virtwall::Selection::DeltaRadiosity,
-        },
-        ties: match point.ties {
-            fields::Ties::ReceivedFirst => virtwall::Ties::ReceivedFirst,
-            fields::Ties::LocalFirst => virtwall::Ties::LocalFirst,
-        },
-        order: match point.order {
-            fields::Order::Best => virtwall::Order::Best,
-            fields::Order::InTurn => virtwall::Order::InTurn,
-        },
+        selection: point.selection,
+        ties: point.ties,
+        order: point.order,
         patch_threshold: point.stop.patch_threshold.value(),
         energy_threshold: point.stop.energy_threshold.value(),
         collect_every: desim::Duration::from_seconds_f64(point.stop.collect_every.value()),
         wall_threshold: point.virtual_walls.threshold.value(),
         radiosity_updates: point.radiosity_updates,
         merge_masks: point.merge_masks,
-        mapping: match point.mapping {
-            fields::Mapping::Blocks => virtwall::Mapping::Blocks,
-            fields::Mapping::Cyclic => virtwall::Mapping::Cyclic,
-            fields::Mapping::Random => virtwall::Mapping::Random(point.seed),
-        },
+        mapping: point.mapping,
+        seed: point.seed,
         shooting: knobs::shooting(point),
     }
 }

@@ -3,9 +3,6 @@
 use serde::{Deserialize, Serialize};
 use virtwall::StartUpReport;
 
-/// The columns of runs.csv: [`StartUpFigures`] by name.
-pub const COLUMNS: [&str; 3] = ["start_up_s", "reading_s", "disk_wait_s"];
-
 /// How the last compute node to be ready came to be so, in seconds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StartUpFigures {
@@ -25,16 +22,5 @@ impl StartUpFigures {
             reading_s: report.reading.as_seconds_f64(),
             disk_wait_s: report.disk_wait.as_seconds_f64(),
         }
-    }
-
-    /// The cell of a column.
-    pub fn cell(&self, column: &str) -> Option<String> {
-        let seconds = match column {
-            "start_up_s" => self.start_up_s,
-            "reading_s" => self.reading_s,
-            "disk_wait_s" => self.disk_wait_s,
-            _ => return None,
-        };
-        Some(format!("{seconds:.6}"))
     }
 }

@@ -7,17 +7,6 @@ use virtwall::DisplayReport;
 
 use crate::files::quantity::{Period, Rate, Size};
 
-/// The columns of runs.csv: [`DisplayFigures`] by name.
-pub const COLUMNS: [&str; 7] = [
-    "display_lag_s",
-    "updates_shown",
-    "updates_dropped",
-    "waiting_for_display_s",
-    "service_busy_fraction",
-    "ethernet_busy_fraction",
-    "display_busy_fraction",
-];
-
 /// What an experiment says of the display in place of the machine's file.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -94,21 +83,6 @@ impl DisplayFigures {
             service_busy: report.service_busy,
             ethernet_busy: report.ethernet_busy,
             display_busy: report.consumer_busy,
-        }
-    }
-
-    /// The cell of a column.
-    pub fn cell(&self, column: &str) -> Option<String> {
-        let number = |number: f64| Some(format!("{number:.6}"));
-        match column {
-            "display_lag_s" => number(self.lag_s),
-            "updates_shown" => Some(self.shown.to_string()),
-            "updates_dropped" => Some(self.dropped.to_string()),
-            "waiting_for_display_s" => number(self.waiting_s),
-            "service_busy_fraction" => number(self.service_busy),
-            "ethernet_busy_fraction" => number(self.ethernet_busy),
-            "display_busy_fraction" => number(self.display_busy),
-            _ => None,
         }
     }
 }

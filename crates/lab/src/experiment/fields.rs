@@ -6,6 +6,7 @@ use multicomputer::ModelChoice;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
+use virtwall::{Mapping, Order, Selection, Ties};
 
 use crate::experiment::accuracy::AccuracyFields;
 use crate::experiment::display::DisplayFields;
@@ -188,52 +189,6 @@ impl Experiment {
         });
         serde_json::from_value(fields).expect("all fields that have no default are there")
     }
-}
-
-/// Which source a node shoots next.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Selection {
-    /// The one with the most unshot energy.
-    #[default]
-    Energy,
-    /// The one with the greatest unshot radiosity.
-    DeltaRadiosity,
-}
-
-/// Which of two sources of the same worth goes first.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Ties {
-    /// The one that another node sent.
-    #[default]
-    ReceivedFirst,
-    /// The node's own.
-    LocalFirst,
-}
-
-/// Where a processor looks for its next source.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Order {
-    /// In all its environments.
-    #[default]
-    Best,
-    /// In one until nothing is left there to shoot, then in the next that has something.
-    InTurn,
-}
-
-/// How local environments are given to processors.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Mapping {
-    /// Contiguous blocks, as equal as can be.
-    #[default]
-    Blocks,
-    /// One after the other, in turn.
-    Cyclic,
-    /// Equal shares, shuffled by the seed.
-    Random,
 }
 
 /// When sources are no longer shot.

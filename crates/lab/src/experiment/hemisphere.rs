@@ -1,5 +1,6 @@
 //! The hemisphere over a source, as an experiment says it.
 
+use radiosity::HemisphereKind;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -9,7 +10,7 @@ use serde::{Deserialize, Serialize};
 pub struct Hemisphere {
     /// How directions are spread. Choice C1: the paper has a hemisphere of pixels and leaves
     /// their arrangement open; at 30,976 pixels it changes the error of a form factor sixfold.
-    pub directions: Directions,
+    pub directions: HemisphereKind,
     /// Pixels, that is rays a source and bits a mask. Choice C1: unpublished; a 4 KB message
     /// (§4.2.3) leaves room for some 32,000, and 30,976 = 176² bits leave 224 bytes for geometry
     /// and photometry.
@@ -33,25 +34,11 @@ pub struct Hemisphere {
 impl Default for Hemisphere {
     fn default() -> Hemisphere {
         Hemisphere {
-            directions: Directions::Fibonacci,
+            directions: HemisphereKind::default(),
             pixels: 30_976,
             least_pixels: None,
             rotated: true,
             by_place: true,
         }
     }
-}
-
-/// How a hemisphere's directions are spread.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Directions {
-    /// A cosine-weighted Fibonacci disc, turned by an angle of each source's own.
-    Fibonacci,
-    /// The five faces of a half cube.
-    Hemicube,
-    /// Rings of equal elevation.
-    Polar,
-    /// The concentric map of a square.
-    Concentric,
 }

@@ -1,14 +1,11 @@
-//! Smaller patches where radiosity changes, as an experiment asks for them, and what runs tell of it.
+//! Smaller patches where radiosity changes, as an experiment asks for them.
 
-use radiosity::{Refinement, Wanted};
+use radiosity::Wanted;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// An edge is halved no more often.
 pub const MOST_HALVINGS: u32 = 6;
-
-/// The columns of runs.csv: what the pilot run of a refined mesh took, which is not in time_s.
-pub const COLUMNS: [&str; 1] = ["pilot_rays"];
 
 /// Smaller patches where radiosity changes, and nowhere else. A pilot run finds out where that is, before
 /// the run proper and beside its time: the column pilot_rays says what it cast.
@@ -43,10 +40,4 @@ impl RefineFields {
         let RefineFields { relative_l2, most_halvings } = *self;
         relative_l2.map(|relative_l2| Wanted { relative_l2, most_halvings })
     }
-}
-
-/// The cell of a column.
-pub fn cell(pilot: &Refinement, column: &str) -> Option<String> {
-    let rays = pilot.shots * u64::from(Refinement::RAYS);
-    (column == COLUMNS[0]).then(|| rays.to_string())
 }

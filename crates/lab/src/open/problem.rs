@@ -2,12 +2,9 @@
 
 use std::sync::Arc;
 
-use radiosity::{
-    DepthBits, Hemisphere, HemisphereKind, PatchSize, VirtualWalls, VirtualWallsError,
-};
+use radiosity::{DepthBits, Hemisphere, PatchSize, VirtualWalls, VirtualWallsError};
 use virtwall::{CutScene, Problem, ProblemError, ProblemOptions};
 
-use crate::experiment::hemisphere::Directions;
 use crate::files::fault::WrongField;
 use crate::host::host_clock::HostClock;
 use crate::open::settings::Settings;
@@ -83,13 +80,7 @@ fn smaller_hemispheres(settings: &Settings) -> Result<Vec<Hemisphere>, WrongFiel
 
 /// A hemisphere of so many pixels.
 fn hemisphere(settings: &Settings, pixels: u32) -> Result<Hemisphere, WrongField> {
-    let kind = match settings.directions {
-        Directions::Fibonacci => HemisphereKind::Fibonacci,
-        Directions::Hemicube => HemisphereKind::Hemicube,
-        Directions::Polar => HemisphereKind::Polar,
-        Directions::Concentric => HemisphereKind::Concentric,
-    };
-    let hemisphere = Hemisphere::new(kind, pixels, settings.rotated)
+    let hemisphere = Hemisphere::new(settings.directions, pixels, settings.rotated)
         .map_err(|error| ("hemisphere.pixels", error.to_string()))?;
     Ok(if settings.by_place { hemisphere } else { hemisphere.by_axes() })
 }

@@ -1,9 +1,9 @@
 //! How a scene is meshed, cut and lit: the experiment's word first, then the scene file's.
 
+use radiosity::HemisphereKind;
 use serde::Serialize;
 
 use crate::experiment::fields::{Experiment, is_false};
-use crate::experiment::hemisphere::Directions;
 use crate::experiment::refine::RefineFields;
 use crate::files::fault::WrongField;
 use crate::files::quantity::Triple;
@@ -36,7 +36,7 @@ pub struct Settings {
     #[serde(skip_serializing_if = "RefineFields::is_none")]
     pub refine: RefineFields,
     /// How rays are spread over the hemisphere.
-    pub directions: Directions,
+    pub directions: HemisphereKind,
     /// Rays a source.
     pub pixels: u32,
     /// Rays of the dimmest sources, if fewer.

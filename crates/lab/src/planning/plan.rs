@@ -10,14 +10,13 @@ use virtwall::Problem;
 
 use crate::accuracy::answer::{Answer, DenseAnswers, Stored};
 use crate::accuracy::tuned::Tuned;
-use crate::engine::message_layer;
-use crate::engine::network;
 use crate::experiment::fields::{Experiment, Plot};
 use crate::experiment::sweep::Axis;
 use crate::files::digest::FileDigest;
 use crate::files::place::Place;
 use crate::open::settings::Settings;
-use crate::table::columns::{self, Also};
+use crate::table::column::{Column, Input};
+use crate::table::columns;
 use crate::table::comparison::Comparison;
 
 /// All that an experiment will do.
@@ -70,26 +69,26 @@ impl Plan {
         label
     }
 
-    /// What its results tell of besides what all do.
-    pub fn also(&self) -> Also {
-        let machine = |run: &Run| &self.machines[run.machine].machine;
-        Also {
-            network: self.runs.iter().any(|run| network::tells(machine(run), run.point.network)),
-            memory: self.runs.iter().any(|run| machine(run).node_memory.is_some()),
-            media: self.problems.iter().any(|p| !p.problem.space.scene.media.is_empty()),
-            refine: self.problems.iter().any(|p| p.problem.refinement.is_some()),
-            message_layer: self.runs.iter().any(|run| message_layer::tells(machine(run))),
-            accuracy: self
-                .runs
-                .iter()
-                .any(|run| run.tuned.is_some() || run.point.accuracy.is_some()),
-            causes: self.runs.iter().any(|run| run.point.error_causes),
-            caches: self.runs.iter().any(|run| !machine(run).processor.caches.is_empty()),
-            translations: self.runs.iter().any(|run| machine(run).processor.translations.is_some()),
-            errors: self.runs.iter().any(|run| run.point.reference.is_some()),
-            display: self.runs.iter().any(|run| machine(run).display.is_some()),
-            start_up: self.runs.iter().any(|run| machine(run).start_up.is_some()),
+    /// The columns of its results, without the swept fields.
+    pub fn columns(&self) -> Vec<&'static Column> {
+        columns::shown(&self.runs.iter().map(|run| self.input(run)).collect::<Vec<_>>())
+    }
+
+    /// What is known of a run before it starts.
+    pub fn input<'a>(&'a self, run: &'a Run) -> Input<'a> {
+        Input {
+            point: &run.point,
+            machine: &self.machines[run.machine].machine,
+            problem: &self.problems[run.problem].problem,
+            tuned: run.tuned.as_ref(),
         }
+    }
+
+    /// The value that a run has of a swept field.
+    pub fn swept(&self, run: &Run, field: &str) -> Option<&Value> {
+        let mut axes = self.axes.iter().zip(&run.index);
+        let (axis, &item) = axes.find(|(axis, _)| axis.place.to_string() == field)?;
+        Some(&axis.values[item])
     }
 
     /// What a run is held against, if anything: a stored answer, or one of `dense`.

@@ -12,7 +12,7 @@ use crate::table::measure::Measure;
 /// Refuses plots of columns that there will not be, or with names that lead elsewhere.
 pub fn check_plots(plan: &Plan, document: &Document) -> Result<(), Fault> {
     let plots: &[Plot] = &plan.plots;
-    let known = columns::drawable(&plan.axes, plan.also());
+    let known = columns::drawable(&plan.columns(), &plan.axes);
     for (i, plot) in plots.iter().enumerate() {
         let place = Place::of("plots").item(i);
         let [x, y] = [&plot.x, &plot.y].map(|text| Measure::of(text));

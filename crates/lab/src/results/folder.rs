@@ -21,6 +21,7 @@ use crate::results::console::table_text;
 use crate::results::host_times;
 use crate::results::reels;
 use crate::results::report;
+use crate::results::run_table::run_table;
 use crate::run::runner::{Endings, Options};
 use crate::run::saved::Saved;
 use crate::table::cheapest;
@@ -42,7 +43,7 @@ impl Results {
     /// # Errors
     /// None is known: all is made in memory.
     pub fn of(plan: &Plan, endings: &Endings, options: &Options) -> io::Result<Results> {
-        let table = Table::of(plan, endings);
+        let table = run_table(plan, endings);
         let manifest = manifest(plan, &table, options.on)?;
         let recorded = reels::recorded(plan, endings, options.threads.max(1));
         Ok(Results { table, manifest, recorded })

@@ -2,6 +2,7 @@
 //!
 //! - [`folder`]: The files of a folder of results.
 //! - [`host_times`]: Columns of host times.
+//! - [`run_table`]: The table of a plan's runs.
 //! - [`networks`]: Network models compared.
 //! - [`summary`]: Simulated figures compared with published ones.
 //! - [`console`]: The table of results as text.
@@ -24,6 +25,7 @@ pub mod pareto;
 pub mod power_law;
 pub mod reels;
 pub mod report;
+pub mod run_table;
 pub mod scale;
 pub mod series;
 pub mod summary;

@@ -13,7 +13,8 @@ use virtwall::{Helpers, KeptShots, Memory, Observers, Recording, SharedObserver,
 
 use crate::accuracy::answer::DenseAnswers;
 use crate::accuracy::causes::Explained;
-use crate::accuracy::errors::{ErrorFigures, Radiosity, Yardstick};
+use crate::accuracy::errors::{Radiosity, Yardstick};
+use crate::engine::error_figures::ErrorFigures;
 use crate::engine::figures::Figures;
 use crate::engine::network;
 use crate::engine::simulator::{self, On};

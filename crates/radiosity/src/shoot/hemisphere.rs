@@ -1,6 +1,8 @@
 //! The hemisphere of directions over an emitter (§3.2): each pixel has a ray and a bit of the mask.
 
 use glam::DVec3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::directions::{concentric, concentric_pixel, equal, fibonacci, hemicube, polar};
@@ -12,9 +14,11 @@ use crate::shoot::bundle::{Bundles, LANES, WIDTH};
 ///
 /// Choice C1: RR-3008 does not say how its hemisphere is divided into pixels. All sets but the
 /// hemicube are cosine-weighted, so that all pixels have the same form factor.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum HemisphereKind {
     /// A Fibonacci spiral on the unit disc, projected up: the most even of these sets.
+    #[default]
     Fibonacci,
     /// The upper half of a cube around the emitter, weighted by delta form factors.
     Hemicube,

@@ -70,6 +70,7 @@ pub fn record(machine: &Machine, network: Box<dyn Network>) -> (Outcome, Recordi
         radiosity_updates: true,
         merge_masks: false,
         mapping: Mapping::Blocks,
+        seed: 0,
         shooting: Shooting::default(),
         wall_threshold: 0.0,
     };

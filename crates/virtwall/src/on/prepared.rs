@@ -31,7 +31,7 @@ impl Prepared {
         let shared = Arc::new(Shared {
             problem: Arc::clone(problem),
             rules: rules.clone(),
-            owners: rules.mapping.owners(environments as u32, *processors),
+            owners: rules.mapping.owners(environments as u32, *processors, rules.seed),
             processors: *processors,
             wall_threshold: brightest * rules.wall_threshold,
             cast: Box::new(move |source: &Source| casts.cast(source)),

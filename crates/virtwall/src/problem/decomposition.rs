@@ -4,6 +4,8 @@ use radiosity::{Block, Side};
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// The number of a process: compute nodes from 0, then service nodes.
 pub type Rank = usize;
@@ -52,26 +54,28 @@ impl Decomposition {
 /// Which processor gets which environments.
 ///
 /// Choice C3: RR-3008 leaves it open.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Mapping {
     /// Equal contiguous runs of environment numbers.
+    #[default]
     Blocks,
     /// Environment i goes to processor i modulo their number.
     Cyclic,
-    /// Equal shares drawn at random with this seed.
-    Random(u64),
+    /// Equal shares, shuffled by the seed.
+    Random,
 }
 
 impl Mapping {
-    /// The processor of each environment. Every processor gets one if there are no more processors than
-    /// environments.
-    pub fn owners(self, environments: u32, processors: usize) -> Vec<Rank> {
+    /// The processor of each environment; the seed matters for a random mapping only. Every processor gets
+    /// one if there are no more processors than environments.
+    pub fn owners(self, environments: u32, processors: usize, seed: u64) -> Vec<Rank> {
         let n = environments as usize;
         let mut owners: Vec<Rank> = match self {
             Mapping::Cyclic => (0..n).map(|i| i % processors).collect(),
-            Mapping::Blocks | Mapping::Random(_) => (0..n).map(|i| i * processors / n).collect(),
+            Mapping::Blocks | Mapping::Random => (0..n).map(|i| i * processors / n).collect(),
         };
-        if let Mapping::Random(seed) = self {
+        if self == Mapping::Random {
             owners.shuffle(&mut ChaCha8Rng::seed_from_u64(seed));
         }
         owners

@@ -2,6 +2,8 @@
 
 use desim::Duration;
 use radiosity::{Emitter, Rgb};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use crate::problem::{Mapping, Shooting};
 
@@ -43,6 +45,8 @@ pub struct Rules {
     pub merge_masks: bool,
     /// Which processor gets which environments.
     pub mapping: Mapping,
+    /// Seed of a random mapping.
+    pub seed: u64,
     /// How a patch is shot.
     pub shooting: Shooting,
 }
@@ -50,9 +54,11 @@ pub struct Rules {
 /// What makes a source the best.
 ///
 /// Choice C4: §3.2 says "most unshot energy", §4.2.2 "greater delta-radiosity".
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Selection {
     /// Unshot power, W.
+    #[default]
     Energy,
     /// Unshot radiosity, W/m².
     DeltaRadiosity,
@@ -78,9 +84,11 @@ impl Selection {
 ///
 /// Choice C45: Figure 9 chooses among all that a processor has; §5.2's "sequential algorithm processes local
 /// environments ones after the others", all sources that wait for one before the next.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Order {
     /// In all its environments.
+    #[default]
     Best,
     /// In one environment until nothing is left there to shoot, then in the next that has something.
     InTurn,
@@ -90,9 +98,11 @@ pub enum Order {
 /// it is the first to arrive, among local ones the lowest number.
 ///
 /// Choice C5: RR-3008 leaves it open; where all lights are equal it decides.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Ties {
     /// Received sources: queues stay short.
+    #[default]
     ReceivedFirst,
     /// Local patches: neighbours get work early.
     LocalFirst,

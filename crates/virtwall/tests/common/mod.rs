@@ -106,6 +106,7 @@ pub fn rules() -> Rules {
         radiosity_updates: true,
         merge_masks: false,
         mapping: Mapping::Blocks,
+        seed: 0,
         shooting: Shooting::default(),
     }
 }

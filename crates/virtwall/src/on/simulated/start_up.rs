@@ -38,7 +38,8 @@ pub fn start_up(
         return Err(RunError::Missing { part, name, unit: "cycles" });
     }
     let problem = &run.problem;
-    let owners = run.rules.mapping.owners(problem.environments.len() as u32, run.processors);
+    let owners =
+        run.rules.mapping.owners(problem.environments.len() as u32, run.processors, run.rules.seed);
     let all = problem.space.scene.polygons.len() as u64;
     let mut counts = vec![[all, 0, 0]; run.processors];
     for (environment, &owner) in problem.environments.iter().zip(&owners) {

@@ -1,10 +1,20 @@
-//! What makes up the error of a run, as columns of the results.
+//! The error of a run, and the parts that make it up.
 
 use serde::{Deserialize, Serialize};
 
-/// The columns of runs.csv: [`Causes`] by name.
-pub const COLUMNS: [&str; 4] =
-    ["error_stopping", "error_directions", "error_sampling", "error_mesh"];
+/// How far a run's radiosities are from the answer, relative to what is reflected, as
+/// [`reference::Difference`] says.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ErrorFigures {
+    /// Area-weighted root mean square.
+    pub l2: f64,
+    /// The greatest of any patch and colour.
+    pub maximum: f64,
+    /// What the answer says of its own error.
+    pub reference: f64,
+    /// What makes up the first, if that was asked for.
+    pub causes: Option<Causes>,
+}
 
 /// The parts that make up a run's error, as area-weighted root mean squares relative to what is
 /// reflected. As vectors they add up to the error: so it is at most their sum.
@@ -18,13 +28,4 @@ pub struct Causes {
     pub sampling: f64,
     /// What the patches of the run miss of the answer.
     pub mesh: f64,
-}
-
-impl Causes {
-    /// The cell of a column.
-    pub fn cell(&self, column: &str) -> Option<String> {
-        let parts = [self.stopping, self.directions, self.sampling, self.mesh];
-        let (_, part) = COLUMNS.iter().zip(parts).find(|(name, _)| **name == column)?;
-        Some(format!("{part:.6e}"))
-    }
 }

@@ -1,0 +1,70 @@
+//! The table of a plan's runs: a run and how it ended as a row of runs.csv.
+
+use std::collections::BTreeMap;
+
+use crate::experiment::fields::Experiment;
+use crate::planning::plan::{Plan, Run, all_else};
+use crate::results::networks;
+use crate::run::runner::{Ending, Endings};
+use crate::table::column::{Column, Row};
+use crate::table::columns;
+use crate::table::runs_csv::Table;
+
+/// The results of a plan's runs, in the plan's order.
+pub fn run_table(plan: &Plan, endings: &Endings) -> Table {
+    let shown = plan.columns();
+    let header = columns::header(&shown, &plan.axes);
+    let column = |name: &String| shown.iter().find(|column| column.name == name).copied();
+    let cells: Vec<Option<&Column>> = header.iter().map(column).collect();
+    let one_processor = times_at_one(plan, endings, "processors", |point| point.processors);
+    let one_environment =
+        times_at_one(plan, endings, "local_environments", |point| point.local_environments);
+    let finest = networks::finest(plan, endings);
+    let row = |(run, ending): (&Run, &Option<Ending>)| -> Vec<String> {
+        let time_s = time(ending);
+        let over = |times: &Times, field: &str| {
+            let (one, time_s) = (times.get(&all_else(plan, run, field))?, time_s?);
+            (time_s > 0.0).then_some(one / time_s)
+        };
+        let difference = |(_, finest): &(_, f64)| {
+            Some((time_s? - finest) / finest).filter(|share| share.is_finite())
+        };
+        let ending = ending.as_ref();
+        let row = Row {
+            input: plan.input(run),
+            figures: ending.and_then(|ending| ending.as_ref().ok()),
+            failure: ending.and_then(|ending| Some(ending.as_ref().err()?.as_str())),
+            published: plan.comparison.of(&run.point.scene, run.point.processors),
+            speed_up: over(&one_processor, "processors"),
+            gain: over(&one_environment, "local_environments"),
+            difference_from_finest: finest
+                .get(&all_else(plan, run, "network"))
+                .and_then(difference),
+        };
+        let cell = |(name, column): (&String, &Option<&Column>)| match column {
+            Some(column) => row.cell(column),
+            None => plan.swept(run, name).map_or(String::new(), columns::cell),
+        };
+        header.iter().zip(&cells).map(cell).collect()
+    };
+    let rows = plan.runs.iter().zip(&endings.runs).map(row).collect();
+    Table { columns: header, rows }
+}
+
+/// Times of the runs for which a field is 1, by all that is swept besides it, s.
+type Times = BTreeMap<Vec<usize>, f64>;
+
+fn times_at_one(
+    plan: &Plan,
+    endings: &Endings,
+    field: &str,
+    value: fn(&Experiment) -> u32,
+) -> Times {
+    let runs = plan.runs.iter().zip(&endings.runs).filter(|(run, _)| value(&run.point) == 1);
+    runs.filter_map(|(run, ending)| Some((all_else(plan, run, field), time(ending)?))).collect()
+}
+
+/// Virtual seconds of a run, if it has ended.
+fn time(ending: &Option<Ending>) -> Option<f64> {
+    ending.as_ref()?.as_ref().ok()?.time_s
+}

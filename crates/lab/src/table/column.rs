@@ -1,0 +1,75 @@
+//! A column of runs.csv, and what its cells are made of.
+
+use multicomputer::Machine;
+use virtwall::Problem;
+
+use crate::accuracy::tuned::Tuned;
+use crate::engine::error_figures::{Causes, ErrorFigures};
+use crate::engine::figures::Figures;
+use crate::engine::network::NetworkFigures;
+use crate::experiment::fields::Experiment;
+use crate::table::comparison::Published;
+
+/// A column of runs.csv.
+pub struct Column {
+    /// Its name.
+    pub name: &'static str,
+    /// What it holds, and in which unit.
+    pub about: &'static str,
+    /// Whether results have the column because of this run. One such run is enough.
+    pub shown: fn(&Input) -> bool,
+    /// The cell of a run; none leaves it empty.
+    pub cell: fn(&Row) -> Option<String>,
+}
+
+/// What is known of a run before it starts.
+pub struct Input<'a> {
+    /// Its point of the experiment.
+    pub point: &'a Experiment,
+    /// Its machine.
+    pub machine: &'a Machine,
+    /// Its scene, meshed and cut.
+    pub problem: &'a Problem,
+    /// The setting found for it, if it asks for an accuracy.
+    pub tuned: Option<&'a Tuned>,
+}
+
+/// All that the cells of a run are made of.
+pub struct Row<'a> {
+    /// What was known before.
+    pub input: Input<'a>,
+    /// Its figures; none if it failed or was not started.
+    pub figures: Option<&'a Figures>,
+    /// Why it failed, if it did.
+    pub failure: Option<&'a str>,
+    /// Published figures of its scene and number of processors.
+    pub published: Published,
+    /// Time on one processor, all else equal, over its time.
+    pub speed_up: Option<f64>,
+    /// Time with one local environment, all else equal, over its time.
+    pub gain: Option<f64>,
+    /// By how much its time exceeds that on the finest network model run, all else equal, as a share.
+    pub difference_from_finest: Option<f64>,
+}
+
+impl Row<'_> {
+    /// The cell of a column.
+    pub fn cell(&self, column: &Column) -> String {
+        (column.cell)(self).unwrap_or_default()
+    }
+
+    /// What the run tells of its network.
+    pub fn network(&self) -> Option<&NetworkFigures> {
+        self.figures?.network.as_ref()
+    }
+
+    /// Its errors.
+    pub fn errors(&self) -> Option<ErrorFigures> {
+        self.figures?.errors
+    }
+
+    /// The parts of its error.
+    pub fn causes(&self) -> Option<Causes> {
+        self.errors()?.causes
+    }
+}
