@@ -273,6 +273,7 @@ fn is_tuned(run: &Input) -> bool {
     run.tuned.is_some() || run.point.accuracy.is_some()
 }
 
+#[expect(clippy::needless_pass_by_value, reason = "numbers and texts alike")]
 fn text(value: impl ToString) -> Option<String> {
     Some(value.to_string())
 }
