@@ -88,7 +88,7 @@ fn recorded_run<'a>(
     recording: &'a LightRecording,
 ) -> RecordedRun<'a> {
     RecordedRun {
-        label: format!("room, {} processors", recording.processors(), 0),
+        label: format!("room, {} processors", recording.processors()),
         scene: "room".to_owned(),
         group: 0,
         problem,
