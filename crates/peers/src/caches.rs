@@ -1,5 +1,5 @@
-//! Misses as the model of a processor's caches has them, beside those that valgrind counts of the same
-//! shots in caches of the same geometry.
+//! Cache misses of the processor model, compared with those that valgrind counts for the same shots in caches of
+//! the same geometry.
 
 use std::fmt::Write;
 use std::process::Command;
@@ -14,31 +14,30 @@ use crate::cpu::rounded;
 use crate::host::Host;
 use crate::shots;
 
-/// Scenes and how they are cut.
+/// Scenes, and the numbers of local environments.
 const SCENES: [&str; 3] = ["office", "rooms", "building"];
 const ENVIRONMENTS: [u32; 3] = [1, 8, 56];
-/// Valgrind's shortest line, bytes: what is shorter is made as long, on both sides.
+/// Valgrind's shortest cache line, bytes. Shorter lines are lengthened to this, in the model and in valgrind.
 const SHORTEST_LINE: u64 = 32;
 
-/// Lights shot in each; the first one fills the caches and is not counted.
+/// Lights shot in each scene. The first ones fill the caches and are not counted.
 const LIGHTS: usize = 3;
 const UNCOUNTED: usize = 1;
 
-/// Where arrays and the stack lie in memory is luck, and decides which of them fall on each other in a
-/// direct-mapped cache: of 400 placements in the model one missed 34 times as often as half of them did. So
-/// the median of many counts, valgrind's and the model's. Of the native kernel these are varied: from how
-/// many bytes on the allocator gives an array pages of its own, and, by so many bytes each time, where the
-/// stack begins.
+/// Placements of arrays and stack in memory. They are arbitrary, and decide which data conflict in a
+/// direct-mapped cache: of 400 placements in the model one had 34 times the median of misses. So both sides
+/// take the median of many placements. For the native kernel two things vary: the size from which the allocator
+/// gives an array its own pages, and the start of the stack, in steps of `STACK` bytes.
 const OWN_PAGES: [u64; 4] = [4_096, 16_384, 131_072, 1 << 30];
 const STACK: usize = 6_704;
 const PLACEMENTS: usize = 16;
-/// Translations hardly care.
+/// Translations of addresses depend little on the placement.
 const PLACEMENTS_OF_PAGES: usize = 4;
-/// In the model every array lies somewhere else each time.
+/// In the model every array gets another address each time.
 const PLACEMENTS_OF_MODEL: usize = 40;
 
-/// The native kernel's records as the compiler lays them out: of a polygon's 120 B a test reads normal and
-/// offset, and one whose plane is met where its edges are.
+/// The layout of the native kernel's records. Of the 120 B of a polygon every test reads normal and offset; a test
+/// whose ray meets the plane also reads where the edges are.
 const NATIVE: Layout = Layout {
     direction: 24,
     cell: [4, 8],
@@ -64,31 +63,31 @@ pub struct Row {
     pub scene: String,
     /// Local environments.
     pub local_environments: u32,
-    /// The level, 1 nearest to the processor; `pages`: the translations of their addresses.
+    /// The level; 1 is nearest to the processor, `pages` is the translation look-aside buffer.
     pub level: &'static str,
-    /// Shots, through an environment each, the uncounted ones included.
+    /// Shots, each through one environment, including the uncounted ones.
     pub shots: usize,
     /// Loads and stores of the native kernel, millions.
     pub references: f64,
-    /// Per cent of them that miss this level, as valgrind counts them.
+    /// Per cent of them that miss this level, counted by valgrind.
     pub percent: f64,
-    /// The same as the model has it.
+    /// The same by the model.
     pub percent_model: f64,
-    /// The model's over valgrind's.
+    /// The ratio of model to valgrind.
     pub ratio: f64,
-    /// The least and the greatest that valgrind counts, as the arrays lie, over its median.
+    /// Least and greatest count of valgrind over all placements, relative to its median.
     pub spread: String,
-    /// The same of the model.
+    /// The same for the model.
     pub spread_model: String,
 }
 
 /// Data references and misses of both levels.
 type Counts = [u64; 3];
 
-/// Measure every scene and cut in the caches of a machine.
+/// Measures every scene and decomposition in the caches of a machine.
 ///
 /// # Errors
-/// When valgrind does not run, a scene is missing, or the machine has not two levels.
+/// If valgrind does not run, a scene is missing, or the machine does not have two levels.
 pub fn measure(machine: &str) -> Result<Vec<Row>, String> {
     let (levels, pages) = levels(machine)?;
     let mut all = Vec::new();
@@ -97,7 +96,7 @@ pub fn measure(machine: &str) -> Result<Vec<Row>, String> {
             let caches = (["1", "2"], &levels, PLACEMENTS);
             let mut rows = rows(machine, caches, scene, environments)?;
             if let Some(pages) = &pages {
-                // Valgrind takes them for a cache like any other.
+                // Valgrind simulates the look-aside buffer as a cache.
                 let pages = (["pages", ""], pages, PLACEMENTS_OF_PAGES);
                 let found = self::rows(machine, pages, scene, environments)?;
                 rows.extend(found.into_iter().take(1));
@@ -110,7 +109,7 @@ pub fn measure(machine: &str) -> Result<Vec<Row>, String> {
     Ok(all)
 }
 
-/// The two levels of a machine's caches, as valgrind can have them, and its translations as two such levels.
+/// The two levels of a machine's caches as valgrind can simulate them, and its translations as two such levels.
 fn levels(machine: &str) -> Result<([CacheLevel; 2], Option<[CacheLevel; 2]>), String> {
     let plan = shots::plan(&[&format!("machine={machine}")])?;
     let processor = &plan.machines[0].machine.processor;
@@ -140,7 +139,7 @@ fn rows(
     let counts = counts.into_iter().collect::<Result<Vec<Counts>, String>>()?;
     let problem = shots::problem(scene, environments)?;
     let shots = shots::of_lights(&problem, LIGHTS);
-    let model = |luck: usize| modelled(&problem, &shots, levels, luck as u64);
+    let model = |seed: usize| modelled(&problem, &shots, levels, seed as u64);
     let models = parallel::map(PLACEMENTS_OF_MODEL, threads, model);
     let [references, ..] = counts[0];
     let percent = |misses: u64| rounded(100.0 * misses as f64 / references as f64);
@@ -164,7 +163,7 @@ fn rows(
     Ok((0..levels.len()).map(row).collect())
 }
 
-/// What valgrind counts of the native kernel.
+/// Valgrind's counts of the native kernel.
 fn counted(
     scene: &str,
     environments: u32,
@@ -201,12 +200,12 @@ fn totals(text: &str) -> Option<Counts> {
     Some([of("Dr") + of("Dw"), of("D1mr") + of("D1mw"), of("DLmr") + of("DLmw")])
 }
 
-/// Shots that are not counted, of so many.
+/// The number of shots that are not counted.
 fn uncounted(shots: &[Source]) -> usize {
     shots.len() * UNCOUNTED / LIGHTS
 }
 
-/// Misses of each level as the model has them.
+/// Misses of each level in the model. `seed` is for random padding between arrays.
 fn modelled(
     problem: &Arc<Problem>,
     shots: &[Source],
@@ -216,13 +215,13 @@ fn modelled(
     let caches = Caches::new(levels, None);
     let mut storage = Storage::new(problem, Layout { padding_seed: Some(seed), ..NATIVE }, caches);
     let (first, others) = shots.split_at(uncounted(shots));
-    first.iter().for_each(|parcel| storage.shoot(parcel));
+    first.iter().for_each(|source| storage.shoot(source));
     let before: Vec<u64> = storage.caches().misses().collect();
-    others.iter().for_each(|parcel| storage.shoot(parcel));
+    others.iter().for_each(|source| storage.shoot(source));
     storage.caches().misses().zip(before).map(|(after, before)| after - before).collect()
 }
 
-/// Misses as arrays lie.
+/// Misses over all placements.
 struct Spread {
     least: u64,
     median: u64,
@@ -244,10 +243,10 @@ impl Spread {
     }
 }
 
-/// The native program that valgrind watches.
+/// The native program that valgrind runs.
 ///
 /// # Errors
-/// What is wrong with the scene.
+/// A fault of the scene.
 pub fn native(scene: &str, environments: u32) -> Result<(), String> {
     let problem = shots::problem(scene, environments)?;
     let shots = shots::of_lights(&problem, LIGHTS);
@@ -255,17 +254,17 @@ pub fn native(scene: &str, environments: u32) -> Result<(), String> {
     Ok(())
 }
 
-/// What was found, how and where.
+/// The README of the results: method, host and table.
 ///
 /// # Errors
-/// When valgrind does not tell its version.
+/// If valgrind does not print its version.
 pub fn readme(rows: &[Row]) -> Result<String, String> {
     let head = include_str!("../README-of-caches.md");
     let valgrind = run(Command::new("valgrind").arg("--version"), "valgrind")?;
     Ok(format!("{head}- {}\n{}{}", valgrind.trim(), Host::here().list(), table(rows)))
 }
 
-/// What was found, for people.
+/// The rows as a Markdown table.
 pub fn table(rows: &[Row]) -> String {
     let mut text = String::from(
         "\n| machine | scene | environments | shots | million references | level | misses, % | model, % | \

@@ -1,4 +1,4 @@
-//! What valgrind counts of a program, function by function.
+//! Counts of valgrind for a program, function by function.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -7,21 +7,21 @@ use std::process::Command;
 use crate::command::run;
 use crate::function::plain_name;
 
-/// Counts of a function's own, without what it calls.
+/// Counts of a function, without the functions that it calls.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Counts {
     /// Instructions.
     pub instructions: u64,
     /// Loads and stores that miss the first cache.
     pub cache_misses: u64,
-    /// Branches, conditional or indirect, that a simple predictor gets wrong.
+    /// Conditional or indirect branches that a simple predictor mispredicts.
     pub wrong_branches: u64,
 }
 
 /// Counts by function.
 ///
 /// # Errors
-/// When valgrind or the program does not run.
+/// If valgrind or the program does not run.
 pub fn count(
     virtwall: &Path,
     arguments: &[String],
@@ -52,7 +52,7 @@ fn read(text: &str) -> BTreeMap<String, Counts> {
         } else if line.starts_with("calls=") {
             called = true;
         } else if line.starts_with(|c: char| c.is_ascii_digit() || "+-*".contains(c)) {
-            // The line after a call holds what the called function took.
+            // The line after a call has the counts of the called function.
             if !std::mem::take(&mut called) {
                 add(counts.entry(plain_name(function)).or_default(), &events, line);
             }
@@ -61,7 +61,7 @@ fn read(text: &str) -> BTreeMap<String, Counts> {
     counts
 }
 
-/// `(7) name` names number 7, and `(7)` means it from then on.
+/// `(7) name` gives number 7 a name; later `(7)` stands for that name.
 fn named<'a>(text: &'a str, names: &mut BTreeMap<&'a str, &'a str>) -> &'a str {
     let (number, name) = text.split_once(' ').unwrap_or((text, ""));
     if !name.is_empty() {
@@ -70,7 +70,7 @@ fn named<'a>(text: &'a str, names: &mut BTreeMap<&'a str, &'a str>) -> &'a str {
     names.get(number).copied().unwrap_or(number)
 }
 
-/// A line: the place, then a count for each event until all that follow are zero.
+/// A line: the position, then a count for each event; zeros at the end are left out.
 fn add(counts: &mut Counts, events: &[&str], line: &str) {
     for (event, count) in events.iter().zip(line.split(' ').skip(1)) {
         let count = count.parse().unwrap_or(0);
@@ -88,7 +88,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn own_counts_are_told_from_those_of_called_functions() {
+    fn counts_of_called_functions_are_not_included() {
         let text = "events: Ir D1mr D1mw Bcm\n\nfl=(1) a.rs\nfn=(1) outer\n10 5 1\n\
                     cfn=(2) inner\ncalls=3 7\n11 900 1 1 1\n+1 2 0 1 4\nfn=(2)\n7 30\nfn=(1)\n* 1\n";
         let counts = read(text);

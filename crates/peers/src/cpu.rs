@@ -1,25 +1,24 @@
-//! Processor time, and figures measured with it.
+//! Processor time, and statistics of measurements.
 
 use std::hint::black_box;
 
 use rustix::time::{ClockId, clock_gettime};
 
-/// Seconds for which this thread has had a processor: less disturbed by what else the host does than
-/// the time on the wall.
+/// Processor seconds of this thread. Other work on the host disturbs them less than wall-clock time.
 fn seconds() -> f64 {
     let now = clock_gettime(ClockId::ThreadCPUTime);
     now.tv_sec as f64 + 1e-9 * now.tv_nsec as f64
 }
 
-/// What an action returns, and the processor seconds that it takes.
+/// The result of an action, and the processor seconds that it takes.
 pub fn timed<T>(action: impl FnOnce() -> T) -> (T, f64) {
     let start = seconds();
     let result = action();
     (result, seconds() - start)
 }
 
-/// Cycles a second: of a chain of shifts and exclusive ors, each of which takes one and waits for the
-/// last (Marsaglia's xorshift64).
+/// Clock rate in hertz, measured with a chain of dependent shifts and exclusive ors that take one cycle each
+/// (Marsaglia's xorshift64).
 pub fn clock() -> f64 {
     const STEPS: u64 = 100_000_000;
     let (_, seconds) = timed(|| {
@@ -33,7 +32,7 @@ pub fn clock() -> f64 {
     6.0 * STEPS as f64 / seconds
 }
 
-/// Least, median and greatest of figures measured again and again.
+/// Least, median and greatest of repeated measurements.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spread {
     /// The least.
@@ -45,7 +44,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// Of at least one figure.
+    /// The spread of at least one measurement.
     pub fn of(mut figures: Vec<f64>) -> Spread {
         figures.sort_unstable_by(f64::total_cmp);
         let n = figures.len();
@@ -54,7 +53,7 @@ impl Spread {
     }
 }
 
-/// A figure with as many decimals as it is worth writing down.
+/// A number rounded to three decimals.
 pub fn rounded(figure: f64) -> f64 {
     (figure * 1e3).round() / 1e3
 }

@@ -1,6 +1,7 @@
 //! Names of functions.
 
-/// `a::b::run::run_avx2_fma_version` is `a::b::run`: valgrind knows fewer instructions than the host.
+/// `a::b::run::run_avx2_fma_version` is `a::b::run`: valgrind and the host may run
+/// different versions of a function, since valgrind supports fewer instructions.
 pub fn plain_name(function: &str) -> String {
     let name = match function.rsplit_once("::") {
         Some((name, last)) if last.ends_with("_version") => name,

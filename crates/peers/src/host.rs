@@ -1,15 +1,15 @@
-//! Where figures come from: the host, the versions, the day.
+//! The host of a measurement, versions of the tools, and the date.
 
 use std::process::{Command, Stdio};
 
 use serde::Serialize;
 
-/// What decides how fast a program runs here. The host's name is not part of it.
+/// The properties that affect speed. The host's name is not recorded.
 #[derive(Serialize)]
 pub struct Host {
     processor: String,
     cores: usize,
-    /// Of its vector instructions, those that the kernel is compiled for.
+    /// The vector instructions that the kernel has versions for.
     vectors: Vec<String>,
     memory: String,
     system: String,
@@ -20,7 +20,7 @@ pub struct Host {
 }
 
 impl Host {
-    /// For people, a line each.
+    /// A Markdown list.
     pub fn list(&self) -> String {
         let Host { processor, cores, memory, system, rustc, compiler, commit, date, .. } = self;
         let vectors = self.vectors.join(", ");
@@ -30,14 +30,15 @@ impl Host {
         )
     }
 
-    /// This host, today. What cannot be found out is empty.
+    /// This host, today. Unknown properties are empty.
     pub fn here() -> Host {
         let read = |path| std::fs::read_to_string(path).unwrap_or_default();
         let (cpu, memory) = (read("/proc/cpuinfo"), read("/proc/meminfo"));
         let release = read("/proc/sys/kernel/osrelease");
         let flags = field(&cpu, "flags").unwrap_or_else(|| field(&cpu, "Features").unwrap_or(""));
         let known = ["sse4_2", "avx2", "avx512f", "avx512vl", "asimd"];
-        let changed = !said("git", &["status", "--porcelain", "--untracked-files=no"]).is_empty();
+        let changed =
+            !output_of("git", &["status", "--porcelain", "--untracked-files=no"]).is_empty();
         Host {
             processor: field(&cpu, "model name").unwrap_or("").to_owned(),
             cores: std::thread::available_parallelism().map_or(1, usize::from),
@@ -47,12 +48,13 @@ impl Host {
                 .map(str::to_owned)
                 .collect(),
             memory: field(&memory, "MemTotal").unwrap_or("").to_owned(),
-            // The release without what a distributor appends.
+            // The release without the suffix of the distribution.
             system: format!("Linux {}", release.split('-').next().unwrap_or("").trim()),
-            rustc: said("rustc", &["--version"]),
-            compiler: said("c++", &["--version"]).lines().next().unwrap_or("").to_owned(),
-            commit: said("git", &["rev-parse", "HEAD"]) + if changed { ", changed" } else { "" },
-            date: said("date", &["-u", "+%F"]),
+            rustc: output_of("rustc", &["--version"]),
+            compiler: output_of("c++", &["--version"]).lines().next().unwrap_or("").to_owned(),
+            commit: output_of("git", &["rev-parse", "HEAD"])
+                + if changed { ", changed" } else { "" },
+            date: output_of("date", &["-u", "+%F"]),
         }
     }
 }
@@ -62,8 +64,8 @@ fn field<'a>(text: &'a str, name: &str) -> Option<&'a str> {
     fields.map(|(key, value)| (key.trim(), value.trim())).find(|(key, _)| *key == name).map(|f| f.1)
 }
 
-/// What a program prints, or nothing.
-fn said(program: &str, arguments: &[&str]) -> String {
+/// The output of a program; empty if it fails.
+fn output_of(program: &str, arguments: &[&str]) -> String {
     let output = Command::new(program).args(arguments).stderr(Stdio::null()).output();
     output.map_or(String::new(), |o| String::from_utf8_lossy(&o.stdout).trim().to_owned())
 }

@@ -1,4 +1,5 @@
-//! Our rates beside those of the programs that others would use for the same.
+//! Compares the speed of this project with other programs: rays with Embree, messages with SimGrid, cache misses
+//! with valgrind.
 
 mod caches;
 mod callgrind;
@@ -22,7 +23,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-/// Measures this project beside its peers, on this host, one thread each.
+/// Compares this project with other programs on this host, one thread each.
 #[derive(Parser)]
 #[command(name = "peers")]
 struct Arguments {
@@ -32,30 +33,30 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Cast the same rays with our kernel and with Embree, in turns.
+    /// Cast the same rays with this kernel and with Embree, in turns.
     Rays {
         /// Names or OBJ files of scenes; by default rooms of two sizes and the paper's three.
         scenes: Vec<PathBuf>,
         #[command(flatten)]
         rounds: Rounds,
     },
-    /// Send the same messages over our networks and over SimGrid's, in turns.
+    /// Send the same messages over these network models and over SimGrid's, in turns.
     Messages {
         #[command(flatten)]
         rounds: Rounds,
     },
-    /// Sample and count where the time goes, in Table 1 and in the kernel.
+    /// Profile Table 1 and the kernel with perf and valgrind.
     Profile,
-    /// Hold the model of a processor's caches against valgrind's count of misses.
+    /// Compare the cache model with valgrind's count of misses.
     Caches {
-        /// The machine whose caches they are.
+        /// The machine that has the caches.
         #[arg(default_value = "ultra1")]
         machine: String,
-        /// Folder for the figures; none are kept without it.
+        /// Folder for the results; without it they are only printed.
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
     },
-    /// Shoot lights natively, for valgrind to watch.
+    /// Shoot lights natively; valgrind runs this.
     #[command(hide = true)]
     Shots {
         /// The scene.
@@ -63,9 +64,9 @@ enum Command {
         /// Local environments.
         environments: u32,
     },
-    /// Do all of this, and `cargo bench`, and write it down.
+    /// Run all comparisons but the caches, and `cargo bench`, and write the results.
     Record {
-        /// Folder for the figures.
+        /// Folder for the results.
         #[arg(long, value_name = "DIR", default_value = "results/benchmarks")]
         out: PathBuf,
         #[command(flatten)]
@@ -75,7 +76,7 @@ enum Command {
 
 #[derive(clap::Args)]
 struct Rounds {
-    /// Rounds, of which the median is told.
+    /// Number of rounds; the median is reported.
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..=1000))]
     rounds: u16,
 }

@@ -1,4 +1,4 @@
-//! The rungs of our ladder of networks beside SimGrid: the same exchange of messages on the same mesh.
+//! The network models compared with SimGrid: the same exchange of messages on the same mesh.
 
 use std::fmt::Write;
 
@@ -20,43 +20,42 @@ pub const SIMGRID: Recipe = Recipe {
 /// Rounds of the exchange.
 const ROUNDS: u64 = 1_000;
 
-/// SimGrid's models of a network that know links; the first is its default.
+/// SimGrid's network models with links; the first is its default.
 const MODELS: [&str; 2] = ["LV08", "CM02"];
 
-/// What one network does with the exchange.
+/// The exchange on one network.
 #[derive(Serialize)]
 pub struct Row {
-    /// Whose network, and which.
+    /// The simulator and its network model.
     pub network: String,
     /// Messages of the exchange.
     pub messages: u64,
     /// Virtual seconds that it takes.
     pub virtual_seconds: f64,
-    /// Messages a second of one thread: the median of the rounds.
+    /// Messages simulated per second by one thread: the median of the rounds.
     pub messages_per_second: f64,
     /// The least.
     pub least: f64,
     /// The greatest.
     pub greatest: f64,
-    /// The median over that of SimGrid's default model.
+    /// The median relative to that of SimGrid's default model.
     pub this_over_simgrid: f64,
 }
 
 /// Messages, virtual seconds; processor seconds.
 type Measured = (u64, f64, f64);
 
-/// Measure all networks: after a round that does not count, `rounds` in which each runs the exchange
-/// once.
+/// Measures all networks: after a warm-up round, `rounds` rounds in which each network runs the exchange once.
 ///
 /// # Errors
-/// What is wrong with SimGrid's harness.
+/// If SimGrid's harness fails.
 pub fn measure(simgrid: &Program, rounds: u16) -> Result<Vec<Row>, String> {
     let mut version = String::new();
     let mut measured: Vec<Vec<Measured>> = vec![Vec::new(); OURS.len() + MODELS.len()];
     for round in 0..=rounds {
         for (network, measured) in measured.iter_mut().enumerate() {
             let figures = match OURS.get(network) {
-                Some(&rung) => ours(rung),
+                Some(&model) => ours(model),
                 None => theirs(simgrid, MODELS[network - OURS.len()], &mut version)?,
             };
             if round > 0 {
@@ -64,7 +63,7 @@ pub fn measure(simgrid: &Program, rounds: u16) -> Result<Vec<Row>, String> {
             }
         }
     }
-    let names = OURS.iter().map(|rung| format!("Virtwall, {rung}"));
+    let names = OURS.iter().map(|model| format!("Virtwall, {model}"));
     let names = names.chain(MODELS.map(|model| format!("SimGrid {version}, {model}")));
     let rate = |measured: &Vec<Measured>| {
         Spread::of(measured.iter().map(|(messages, _, cpu)| *messages as f64 / cpu).collect())
@@ -85,22 +84,22 @@ pub fn measure(simgrid: &Program, rounds: u16) -> Result<Vec<Row>, String> {
     Ok(rows.collect())
 }
 
-fn ours(rung: NetworkModel) -> Measured {
-    let ((messages, end), seconds) = timed(|| exchange(rung, ROUNDS));
+fn ours(model: NetworkModel) -> Measured {
+    let ((messages, end), seconds) = timed(|| exchange(model, ROUNDS));
     (messages, end.as_seconds_f64(), seconds)
 }
 
 fn theirs(simgrid: &Program, model: &str, version: &mut String) -> Result<Measured, String> {
     let model = format!("--cfg=network/model:{model}");
     let mut peer = Peer::start(simgrid, &[&model, "--log=xbt_cfg.thresh:warning"])?;
-    peer.tell(&problem())?;
+    peer.write(&problem())?;
     *version = peer.line()?;
     let (seconds, messages, virtual_seconds) = peer.figures()?;
     Ok((messages, virtual_seconds, seconds))
 }
 
-/// The exchange as `simgrid.cpp` reads it. SimGrid has no time of the processor for a message: the
-/// Paragon's is part of its latency there.
+/// The exchange in the format that `simgrid.cpp` reads. SimGrid has no processor overhead of a message; the
+/// Paragon's is added to the latency.
 fn problem() -> String {
     let p = paragon().parameters.software.expect("the Paragon's file has them");
     let latency = (p.send_overhead + p.latency + p.receive_overhead).as_seconds_f64();
@@ -112,7 +111,7 @@ fn problem() -> String {
     text
 }
 
-/// The rows, for people.
+/// The rows as a Markdown table.
 pub fn table(rows: &[Row]) -> String {
     let mut text = format!(
         "\n{} nodes, 4 neighbours, {BYTES} bytes, {ROUNDS} rounds\n\n\

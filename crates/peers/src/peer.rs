@@ -1,4 +1,4 @@
-//! Another program, compiled here and now from our own source against a library of the host.
+//! A harness for another library: compiled from C++ source in this crate, then driven line by line.
 
 use std::io::{BufRead, BufReader, Write};
 use std::path::PathBuf;
@@ -13,15 +13,15 @@ pub struct Recipe {
     pub source: &'static str,
     /// The library that it is linked with.
     pub library: &'static str,
-    /// Packages of Debian with all that it needs.
+    /// Debian packages that it needs.
     pub packages: &'static str,
 }
 
 impl Recipe {
-    /// Compile the program, beside the one that runs now.
+    /// Compiles the program into the folder of the running one.
     ///
     /// # Errors
-    /// What is missing, and the packages that hold it.
+    /// What is missing, and the packages that contain it.
     pub fn build(&self) -> Result<Program, String> {
         let Recipe { name, source, library, packages } = self;
         let own = std::env::current_exe().map_err(|error| format!("{name}: {error}"))?;
@@ -38,26 +38,26 @@ impl Recipe {
             .spawn()
             .map_err(|error| missing(&format!("the compiler c++ does not start: {error}")))?;
         if let Some(mut input) = compiler.stdin.take() {
-            // A compiler that does not read on says why on its standard error.
+            // If the compiler stops reading, its standard error has the reason.
             let _ = input.write_all(source.as_bytes());
         }
         let output = compiler.wait_with_output().map_err(|error| missing(&error.to_string()))?;
         if output.status.success() {
             return Ok(Program { name, path: program });
         }
-        let complaints = String::from_utf8_lossy(&output.stderr);
-        let first = complaints.lines().find(|line| line.contains("error"));
+        let errors = String::from_utf8_lossy(&output.stderr);
+        let first = errors.lines().find(|line| line.contains("error"));
         Err(missing(first.unwrap_or("the compiler c++ failed")))
     }
 }
 
-/// A program that was built.
+/// A compiled program.
 pub struct Program {
     name: &'static str,
     path: PathBuf,
 }
 
-/// A program that runs, and answers line by line.
+/// A running program that answers line by line.
 pub struct Peer {
     name: &'static str,
     child: Child,
@@ -66,10 +66,10 @@ pub struct Peer {
 }
 
 impl Peer {
-    /// Start a program.
+    /// Starts a program.
     ///
     /// # Errors
-    /// When it does not start.
+    /// If it does not start.
     pub fn start(program: &Program, arguments: &[&str]) -> Result<Peer, String> {
         let Program { name, path } = program;
         let mut child = Command::new(path)
@@ -83,32 +83,32 @@ impl Peer {
         Ok(Peer { name, child, input, output: BufReader::new(output) })
     }
 
-    /// Tell it something.
+    /// Writes a text to its standard input.
     ///
     /// # Errors
-    /// When it has ended.
-    pub fn tell(&mut self, text: &str) -> Result<(), String> {
-        let told = self.input.write_all(text.as_bytes()).and_then(|()| self.input.flush());
-        told.map_err(|error| format!("{}: {error}", self.name))
+    /// If it has ended.
+    pub fn write(&mut self, text: &str) -> Result<(), String> {
+        let written = self.input.write_all(text.as_bytes()).and_then(|()| self.input.flush());
+        written.map_err(|error| format!("{}: {error}", self.name))
     }
 
-    /// The next line that it says.
+    /// The next line of its output.
     ///
     /// # Errors
-    /// When it says no more.
+    /// If it has ended.
     pub fn line(&mut self) -> Result<String, String> {
         let mut line = String::new();
         match self.output.read_line(&mut line) {
             Ok(read) if read > 0 => Ok(line.trim().to_owned()),
-            Ok(_) => Err(format!("{}: it ended before its time", self.name)),
+            Ok(_) => Err(format!("{}: it ended too early", self.name)),
             Err(error) => Err(format!("{}: {error}", self.name)),
         }
     }
 
-    /// The next line that it says: seconds, a count, and something more.
+    /// The next line of its output: seconds, a count, and one more value.
     ///
     /// # Errors
-    /// When it says anything else.
+    /// If the line has another form.
     pub fn figures<T: FromStr>(&mut self) -> Result<(f64, u64, T), String> {
         let line = self.line()?;
         let mut words = line.split(' ');
@@ -123,7 +123,7 @@ impl Peer {
 
 impl Drop for Peer {
     fn drop(&mut self) {
-        // Whatever it does, nobody waits for it any more.
+        // Errors do not matter: its output is no longer needed.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
@@ -133,9 +133,9 @@ impl Drop for Peer {
 mod tests {
     use super::*;
 
-    /// With a compiler or without one.
+    /// Passes with and without a compiler on the host.
     #[test]
-    fn what_is_missing_is_named_with_its_package() {
+    fn errors_name_the_missing_package() {
         let recipe = Recipe {
             name: "nothing",
             source: "#error \"Nothing is not installed\"",

@@ -1,4 +1,4 @@
-//! Where a program spends its time, as perf samples it by the clock.
+//! The time of a program by function, sampled by perf.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -10,16 +10,16 @@ use crate::command::run;
 use crate::cpu::rounded;
 use crate::function::plain_name;
 
-/// Functions with less of the time than this many per cent are told together.
+/// Functions below this share of the time, in per cent, are summed.
 const LEAST: f64 = 1.5;
 
 /// Samples a second.
 const FREQUENCY: &str = "5000";
 
-/// A function and its own part of the time.
+/// A function and its own share of the time.
 #[derive(Serialize)]
 pub struct Share {
-    /// The function, whatever processor it is compiled for.
+    /// The function; versions for different processors have one name.
     pub function: String,
     /// Per cent of the samples.
     pub percent: f64,
@@ -28,14 +28,14 @@ pub struct Share {
 /// Shares of the time by function, and processor seconds sampled.
 ///
 /// # Errors
-/// When perf or the program does not run.
+/// If perf or the program does not run.
 pub fn sample(
     virtwall: &Path,
     arguments: &[String],
     folder: &Path,
 ) -> Result<(Vec<Share>, f64), String> {
     let data = folder.join("perf.data");
-    // The clock is there in virtual machines too, where the processor's counters often are not.
+    // Virtual machines often have no hardware counters, but always a clock.
     let mut perf = Command::new("perf");
     perf.args(["record", "--quiet", "-e", "cpu-clock:u", "-F", FREQUENCY, "-o"]).arg(&data);
     run(perf.arg("--").arg(virtwall).args(arguments), "linux-perf")?;

@@ -1,4 +1,4 @@
-//! Where the time goes: what perf samples and valgrind counts, function by function.
+//! The profile of Table 1 and of the kernel, by perf and valgrind, function by function.
 
 use std::path::{Path, PathBuf};
 
@@ -10,12 +10,12 @@ use crate::command::{cargo, run};
 use crate::cpu::{clock, rounded};
 use crate::perf::{Share, sample};
 
-/// Sources of the kernel's profile, sampled and counted: a second, and a few under valgrind.
+/// Number of sources for the kernel's profile: sampled by perf, and counted by the slower valgrind.
 const SAMPLED: u32 = 1_024;
 const COUNTED: u32 = 32;
 const RAYS: u32 = 30_976;
 
-/// A function, and what it does for a ray, or in a run.
+/// A function and its cost, for each ray or in a run.
 #[derive(Serialize)]
 pub struct Part {
     /// As in [`Share`].
@@ -24,22 +24,22 @@ pub struct Part {
     pub percent: f64,
     /// Cycles of the processor.
     pub cycles: f64,
-    /// Instructions; nothing here or below where valgrind runs another function in its place.
+    /// Instructions; this and the following are empty if valgrind runs another version of the function.
     pub instructions: Option<f64>,
     /// Loads and stores that miss the first cache.
     pub cache_misses: Option<f64>,
-    /// Branches that are guessed wrong.
+    /// Mispredicted branches.
     pub wrong_branches: Option<f64>,
-    /// Per cent of the cycles that the instructions take at the least.
+    /// Lower bound of the cycles of the instructions, per cent.
     pub instructions_percent: Option<f64>,
-    /// Per cent of the cycles that the cache misses take, one after the other.
+    /// Cycles of the cache misses if they do not overlap, per cent.
     pub cache_misses_percent: Option<f64>,
-    /// Per cent of the cycles that the wrong branches take.
+    /// Cycles of the mispredicted branches, per cent.
     pub wrong_branches_percent: Option<f64>,
 }
 
-/// Cycles that an instruction takes at the least, that a line from the second cache takes, and that go
-/// by until work goes on after a wrong branch: assumed, as Intel states them of its Golden Cove.
+/// Cycles of an instruction (lower bound), of a line from the second cache, and of a mispredicted branch: assumed,
+/// those of Intel's Golden Cove.
 const COSTS: [f64; 3] = [1.0 / 6.0, 14.0, 17.0];
 
 impl Part {
@@ -61,27 +61,27 @@ impl Part {
     }
 }
 
-/// What was found.
+/// The results.
 pub struct Profile {
-    /// Functions of Table 1's whole run, the greatest share first.
+    /// Functions of the whole run of Table 1, the greatest share first.
     pub table1: Vec<Share>,
-    /// Those of its Office part, in millions.
+    /// Functions of its Office part, counts in millions.
     pub office: Vec<Part>,
-    /// Those of the kernel on the rooms, a ray.
+    /// Functions of the kernel on the scene `rooms`, counts for each ray.
     pub kernel: Vec<Part>,
-    /// Cycles a second of this processor while it is busy, on which cycles are based.
+    /// Clock rate of this processor under load, hertz; used to compute cycles.
     pub clock: f64,
 }
 
-/// Profile Table 1 and the kernel, one thread each.
+/// Profiles Table 1 and the kernel, one thread each.
 ///
 /// # Errors
-/// What does not run, and the packages that hold it.
+/// The program that does not run, and the packages that contain it.
 pub fn measure(folder: &TempDir) -> Result<Profile, String> {
     let virtwall = build()?;
     let folder = folder.path();
     let (whole, _) = sample(&virtwall, &table1(folder, "whole", &[]), folder)?;
-    // Each into a folder of its own: runs found there would not be run again.
+    // Each into its own folder, since runs found there would not be repeated.
     let office = |run| (table1(folder, run, &["--set", "scene=office"]), 1e6);
     let rays = |sources| (kernel(sources), f64::from(sources) * f64::from(RAYS));
     let clock = clock();
@@ -101,14 +101,14 @@ fn table1(folder: &Path, run: &str, more: &[&str]) -> Vec<String> {
     arguments.iter().chain(more).map(|&word| word.to_owned()).collect()
 }
 
-/// Arguments that cast the rays of so many sources.
+/// Arguments that cast the rays of a number of sources.
 fn kernel(sources: u32) -> Vec<String> {
     let (sources, rays) = (sources.to_string(), RAYS.to_string());
     ["bench", "rays", "rooms", "--sources", &sources, "--rays", &rays].map(str::to_owned).to_vec()
 }
 
-/// Sample one command and count another, which does the same as often or less often; each is given
-/// with the number by which what is found is divided.
+/// Samples one command and counts another that does the same work fewer times. Each comes with the number by which
+/// its results are divided.
 fn parts(
     virtwall: &Path,
     [(sampled, per_sampled), (counted, per_counted)]: &[(Vec<String>, f64); 2],
@@ -128,14 +128,14 @@ fn parts(
     Ok(shares.into_iter().map(part).collect())
 }
 
-/// The `virtwall` command, as fast as a user has it.
+/// Builds the `virtwall` command with the release profile.
 fn build() -> Result<PathBuf, String> {
     run(cargo().args(["build", "--release", "--package", "cli"]), "cargo")?;
     let own = std::env::current_exe().map_err(|error| error.to_string())?;
     Ok(own.with_file_name("virtwall"))
 }
 
-/// What was found, for people.
+/// The results as Markdown tables.
 pub fn table(profile: &Profile) -> String {
     let mut text = String::from("\n| Table 1, one thread | % of the time |\n|---|---:|\n");
     for Share { function, percent } in &profile.table1 {

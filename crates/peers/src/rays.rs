@@ -1,4 +1,4 @@
-//! The kernel beside Embree: the same rays from the same points at the same polygons.
+//! The kernel compared with Embree: the same rays from the same points through the same scene.
 
 use std::fmt::Write;
 
@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::cpu::{Spread, rounded, timed};
 use crate::peer::{Peer, Program, Recipe};
-use crate::scenes::Bench;
+use crate::scenes::BenchScene;
 
 /// Embree's harness.
 pub const EMBREE: Recipe = Recipe {
@@ -19,12 +19,12 @@ pub const EMBREE: Recipe = Recipe {
     packages: "g++ libembree-dev",
 };
 
-/// Sources, rays from each, and the seed of the points, as `virtwall bench rays` has them.
+/// Sources, rays from each, and the seed of the points; the same as in `virtwall bench rays`.
 const SOURCES: u32 = 64;
 const RAYS: u32 = 30_976;
 const SEED: u64 = 1996;
 
-/// Embree's ways of casting: name, rays a call, robust.
+/// Modes of Embree: name, rays per call, robust.
 const MODES: [(&str, u32, bool); 6] = [
     ("single", 1, false),
     ("packets of 8", 8, false),
@@ -34,14 +34,14 @@ const MODES: [(&str, u32, bool); 6] = [
     ("robust, packets of 16", 16, true),
 ];
 
-/// What one tracer does with a scene.
+/// One ray tracer on one scene.
 #[derive(Serialize)]
 pub struct Row {
     /// The scene.
     pub scene: String,
     /// Its polygons.
     pub polygons: usize,
-    /// The tracer, and how it casts.
+    /// The tracer and its mode.
     pub tracer: String,
     /// Rays cast.
     pub rays: u64,
@@ -49,28 +49,27 @@ pub struct Row {
     pub hits: u64,
     /// Hits on the polygon on which the ray starts.
     pub own_hits: u64,
-    /// Million rays a second of one thread: the median of the rounds.
+    /// Million rays per second of one thread: the median of the rounds.
     pub mrays_per_second: f64,
     /// The least.
     pub least: f64,
     /// The greatest.
     pub greatest: f64,
-    /// Our median over this one's.
+    /// The median of this project relative to that of the row.
     pub ours_over_this: f64,
 }
 
-/// Measure a scene: after a round that does not count, `rounds` in which each tracer casts everything
-/// once.
+/// Measures a scene: after a warm-up round, `rounds` rounds in which each tracer casts all rays once.
 ///
 /// # Errors
-/// What is wrong with the scene, or with Embree's harness.
-pub fn measure(embree: &Program, scene: &Bench, rounds: u16) -> Result<Vec<Row>, String> {
+/// A fault of the scene, or of Embree's harness.
+pub fn measure(embree: &Program, scene: &BenchScene, rounds: u16) -> Result<Vec<Row>, String> {
     let open = OpenScene::load(&scene.path.to_string_lossy()).map_err(|fault| fault.to_string())?;
     let bench = RayBench::new(open, SOURCES, RAYS, SEED).map_err(|error| error.to_string())?;
     let mut embree = Peer::start(embree, &[])?;
-    embree.tell(&problem(&bench))?;
+    embree.write(&problem(&bench))?;
     let version = embree.line()?;
-    // For each tracer the counts, always the same, and the rate of each round.
+    // For each tracer the counts, equal in all rounds, and the rate of each round.
     let mut counts = vec![(0, 0, 0); 1 + MODES.len()];
     let mut rates = vec![Vec::new(); 1 + MODES.len()];
     for round in 0..=rounds {
@@ -104,7 +103,7 @@ pub fn measure(embree: &Program, scene: &Bench, rounds: u16) -> Result<Vec<Row>,
     Ok(rows.collect())
 }
 
-/// The rows of a scene, for people.
+/// The rows of a scene as a Markdown table.
 pub fn table(rows: &[Row]) -> String {
     let mut text = String::new();
     if let Some(Row { scene, polygons, rays, .. }) = rows.first() {
@@ -140,13 +139,13 @@ fn theirs(
     bench: &RayBench,
     (_, width, robust): (&str, u32, bool),
 ) -> Result<(Count, f64), String> {
-    embree.tell(&format!("{width} {}\n", u32::from(robust)))?;
+    embree.write(&format!("{width} {}\n", u32::from(robust)))?;
     let (seconds, hits, own_hits) = embree.figures()?;
     let rays = bench.sources.len() as u64 * u64::from(bench.hemisphere.pixels());
     Ok(((rays, hits, own_hits), seconds))
 }
 
-/// Polygons, directions and sources as `embree.cpp` reads them, in the scene's own coordinates,
+/// Polygons, directions and sources in the format that `embree.cpp` reads, in local coordinates of the scene,
 /// rounded to single precision.
 fn problem(bench: &RayBench) -> String {
     let mut text = String::new();
@@ -170,8 +169,7 @@ fn problem(bench: &RayBench) -> String {
     text
 }
 
-/// Where a direction comes on a curve that keeps neighbours of the disc together: packets of any
-/// width are coherent.
+/// The position of a direction on a Z-order curve over the disc, which makes packets of any width coherent.
 fn along_z_curve(direction: DVec3) -> u64 {
     let cell = |x: f64| ((x + 1.0) * f64::from(1 << 15)) as u64;
     let (x, y) = (cell(direction.x), cell(direction.y));

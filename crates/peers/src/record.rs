@@ -1,4 +1,4 @@
-//! Everything measured and written down: figures as CSV, the host as JSON, a README of tables.
+//! Runs the benchmarks and writes the results: CSV tables, the host as JSON, and a README.
 
 use std::path::Path;
 
@@ -8,13 +8,13 @@ use crate::command::{cargo, run};
 use crate::host::Host;
 use crate::{messages, profile, rays, scenes};
 
-/// What the README says of how figures came about.
+/// The first part of the README: how the results are measured.
 const HEAD: &str = include_str!("../README-of-results.md");
 
-/// Measure all there is, and write it into a folder.
+/// Runs all benchmarks and writes the results into a folder.
 ///
 /// # Errors
-/// What is missing on this host; then nothing is written.
+/// What is missing on this host; in that case nothing is written.
 pub fn record(out: &Path, rounds: u16) -> Result<(), String> {
     let (embree, simgrid) = (rays::EMBREE.build()?, messages::SIMGRID.build()?);
     let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
@@ -55,7 +55,7 @@ pub fn record(out: &Path, rounds: u16) -> Result<(), String> {
 /// Rows as CSV.
 ///
 /// # Errors
-/// None that rows of plain fields have.
+/// Those of the CSV writer; rows of plain fields have none.
 pub fn csv(rows: &[impl Serialize]) -> Result<String, String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     rows.iter().try_for_each(|row| writer.serialize(row)).map_err(|error| error.to_string())?;
@@ -63,16 +63,16 @@ pub fn csv(rows: &[impl Serialize]) -> Result<String, String> {
     String::from_utf8(bytes).map_err(|error| error.to_string())
 }
 
-/// Write one file into a folder.
+/// Writes one file into a folder, which is created if necessary.
 ///
 /// # Errors
-/// What stands in the way.
+/// Those of the file system.
 pub fn write(folder: &Path, name: &str, text: &str) -> Result<(), String> {
     std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     lab::write_file(&folder.join(name), text.as_bytes()).map_err(|error| error.to_string())
 }
 
-/// What `cargo bench` prints.
+/// The output of `cargo bench`.
 fn cargo_bench() -> Result<String, String> {
     run(cargo().args(["bench", "--quiet"]), "cargo")
 }

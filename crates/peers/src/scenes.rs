@@ -1,27 +1,28 @@
-//! The scenes that rays are cast through.
+//! The scenes of the ray benchmark.
 
 use std::path::PathBuf;
 
 use tempfile::TempDir;
 
-/// A scene to measure.
-pub struct Bench {
-    /// What it is called in tables.
+/// A scene of the benchmark.
+pub struct BenchScene {
+    /// Its name in tables.
     pub name: String,
-    /// Its name among the project's scenes, or its file.
+    /// Its name in the folder of scenes, or its file.
     pub path: PathBuf,
 }
 
-/// The rooms with so many tables in each: about a thousand polygons and about ten thousand.
+/// Names, and numbers of tables in each room: about a thousand and about ten thousand polygons.
 const ROOMS: [(&str, u32); 2] = [("S", 0), ("M", 30)];
 
-/// The scenes asked for, or the rooms with few and with many polygons and the paper's three.
+/// The scenes that the user names; by default rooms of two sizes and the three scenes of the paper.
 ///
 /// # Errors
-/// When a scene cannot be written into `folder`.
-pub fn scenes(asked: &[PathBuf], folder: &TempDir) -> Result<Vec<Bench>, String> {
+/// If a scene cannot be written into `folder`.
+pub fn scenes(asked: &[PathBuf], folder: &TempDir) -> Result<Vec<BenchScene>, String> {
     if !asked.is_empty() {
-        let named = |path: &PathBuf| Bench { name: path.display().to_string(), path: path.clone() };
+        let named =
+            |path: &PathBuf| BenchScene { name: path.display().to_string(), path: path.clone() };
         return Ok(asked.iter().map(named).collect());
     }
     let mut scenes = Vec::new();
@@ -34,10 +35,10 @@ pub fn scenes(asked: &[PathBuf], folder: &TempDir) -> Result<Vec<Bench>, String>
             .and_then(|()| std::fs::write(folder.join("rooms.mtl"), text.mtl))
             .map_err(|error| format!("{}: {error}", path.display()))?;
         let name = format!("{name}: rooms, {tables} tables each");
-        scenes.push(Bench { name, path });
+        scenes.push(BenchScene { name, path });
     }
     for name in ["rooms", "building", "office"] {
-        scenes.push(Bench { name: name.to_owned(), path: PathBuf::from(name) });
+        scenes.push(BenchScene { name: name.to_owned(), path: PathBuf::from(name) });
     }
     Ok(scenes)
 }

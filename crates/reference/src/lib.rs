@@ -1,35 +1,19 @@
-//! What the answer should be: closed-form view factors, form factors as exact as wanted, and two
-//! solutions to hold others against, a dense one and a path-traced one.
+//! Reference answers: what form factors and radiosities should be, each with its error.
 //!
-//! Knows nothing of processors, messages or time, nor of files.
+//! - `form_factors`: closed forms, exact quadrature between polygons and objects, and rays
+//! - `solutions`: radiosities of a scene, by a dense system or by light paths
+//! - `comparison`: stored solutions, and the difference between two solutions
+//!
+//! This crate knows nothing of processors, messages, time or files.
 
-mod centres;
-pub mod closed_form;
-mod conjugate;
-mod cubature;
-mod dense;
-mod difference;
-mod element;
-mod gauss;
-mod objects;
-mod pair;
-mod patches;
-mod paths;
-mod rays;
-mod ring;
-mod sampling;
-mod stored;
-mod witnesses;
+mod comparison;
+mod form_factors;
+mod solutions;
 
-pub use centres::Centres;
-pub use cubature::{Estimate, Tolerance};
-pub use dense::{Dense, Solution};
-pub use difference::{Difference, Overlaps};
-pub use element::element_to_polygon;
-pub use objects::Objects;
-pub use pair::{Pair, Surface};
-pub use patches::Patches;
-pub use paths::{Paths, Problem, Received};
-pub use rays::ObjectRays;
-pub use stored::{Method, Reference, Subject};
-pub use witnesses::{Testimony, Witnesses};
+pub use comparison::{Difference, Method, Overlaps, Reference, Subject};
+pub use form_factors::{
+    Estimate, ObjectRays, Objects, Pair, Surface, Tolerance, closed_form, element_to_polygon,
+};
+pub use solutions::{
+    Centres, Dense, Patches, Paths, Problem, Received, Solution, Testimony, Witnesses,
+};

@@ -1,4 +1,4 @@
-//! The dense solver where the answer is known.
+//! The dense solver compared with known solutions.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
 
@@ -10,7 +10,7 @@ use radiosity::{Face, Material, Scene};
 use reference::closed_form::opposed_rectangles;
 use reference::{Dense, Patches, Solution};
 
-/// Faces in materials of their own, meshed and solved: the matrix and the light.
+/// Meshes and solves faces with these materials: the matrix and the solution.
 fn solved(
     faces: &[Face],
     materials: Vec<Material>,
@@ -65,7 +65,7 @@ fn cube_of_one_patch_a_face() {
     }
 }
 
-/// Finer patches come to the continuum's answer.
+/// Finer patches converge to the solution of the continuum.
 #[test]
 fn refined_cube() {
     let continuum = [0.342_43, 0.208_72, 0.362_21];
@@ -79,8 +79,8 @@ fn refined_cube() {
     }
 }
 
-/// Parallel plates: the exact answer for what they exchange, which tends to that of infinite plates,
-/// B₁ = (E₁ + ρ₁ E₂) / (1 − ρ₁ ρ₂), as the rim, where light escapes, becomes less of the whole.
+/// Parallel plates: the exact solution, which tends to that of infinite plates,
+/// B₁ = (E₁ + ρ₁ E₂) / (1 − ρ₁ ρ₂), as the plates get wider and less light escapes.
 #[test]
 fn wide_plates() {
     let (e1, r1, e2, r2) = (1.0, 0.3, 2.0, 0.6);
@@ -97,12 +97,13 @@ fn wide_plates() {
     assert!(off[0] > off[1] && off[1] > off[2] && (0.0..2e-3).contains(&off[2]), "{off:?}");
 }
 
-/// In a sphere all irradiance is ⟨E⟩ / (1 − ⟨ρ⟩), whatever the pattern; a polyhedron comes to it.
+/// In a sphere irradiance is ⟨E⟩ / (1 − ⟨ρ⟩) everywhere, for any distribution of emission; polyhedra converge
+/// to it.
 #[test]
 fn sphere() {
     let error = |times: u32| {
         let mut faces = octahedron(times);
-        // The upper half emits, the lower reflects otherwise.
+        // The upper half emits; the lower half has another reflectance.
         for face in &mut faces {
             face.material = u32::from(face.points.iter().map(|p| p.z).sum::<f64>() < 0.0);
         }
@@ -124,7 +125,7 @@ fn sphere() {
     assert!(errors[2] < 0.02, "{errors:?}");
 }
 
-/// A unit octahedron seen from inside, its triangles cut into four on the sphere so many times.
+/// A unit octahedron seen from inside, its triangles subdivided on the sphere `times` times.
 fn octahedron(times: u32) -> Vec<Face> {
     let mut triangles = Vec::new();
     for signs in 0..8 {
@@ -144,7 +145,7 @@ fn octahedron(times: u32) -> Vec<Face> {
     triangles.into_iter().map(face).collect()
 }
 
-/// A pillar in the room: form factors from any patch still sum to 1.
+/// A room with a pillar: form factors from each patch sum to 1.
 #[test]
 fn rows_of_a_closed_scene_sum_to_one() {
     let mut faces = room([2.0, 2.0, 1.0]);
@@ -157,7 +158,7 @@ fn rows_of_a_closed_scene_sum_to_one() {
     let (dense, solution) = solved(&faces, vec![grey(0.5, 1.0)], 1.0, 1e-4);
     assert!(solution.error.iter().all(|error| error.x < 1e-3), "{:?}", solution.error);
     let patches = dense.patches();
-    // The floor goes on under the pillar, where it sees nothing but the pillar's foot.
+    // Not those of the floor, parts of which are under the pillar.
     for from in (0..patches.count()).filter(|&i| patches.surfaces[i].plane.normal.z == 0.0) {
         let sum: f64 = (0..patches.count()).map(|to| dense.form_factor(from, to)).sum();
         assert!((sum - 1.0).abs() < 2e-4, "{sum} {:?}", patches.surfaces[from]);

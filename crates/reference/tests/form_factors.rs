@@ -1,4 +1,4 @@
-//! Form factors by quadrature against closed forms.
+//! Form factors by quadrature compared with closed forms.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
 
@@ -13,7 +13,7 @@ use reference::closed_form::{
 };
 use reference::{Objects, element_to_polygon};
 
-/// The form factor from object 0 to object 1 is `exact`, and says of itself how far off it is.
+/// Checks that the form factor from object 0 to object 1 is `exact` within its error.
 fn holds(faces: &[radiosity::Face], exact: f64, tolerance: f64) {
     let scene = scene(faces);
     let [found, _] = Objects::new(&scene).exact(0, 1, tolerance);
@@ -88,11 +88,11 @@ fn obstructed_squares() {
     holds(&faces, 0.149_868_671_8, 1e-8);
 }
 
-/// A table in a room: form factors from anything to everything sum to 1.
+/// A room with a table: form factors from each object sum to 1.
 #[test]
-fn closed_rooms_see_only_themselves() {
+fn rows_of_a_closed_room_sum_to_one() {
     let mut faces = room([4.0, 3.0, 2.5]);
-    // A table: a box that stands free, seen from outside.
+    // The table is a floating box, seen from outside.
     let [x0, y0, z0, x1, y1, z1] = [1.0, 1.0, 0.6, 2.0, 1.7, 0.8];
     let boxed = room([x1 - x0, y1 - y0, z1 - z0]);
     faces.extend(boxed.into_iter().map(|mut face| {
@@ -110,9 +110,9 @@ fn closed_rooms_see_only_themselves() {
     }
 }
 
-/// Where two polygons of one plane overlap, the second is not there, as for rays.
+/// Where two polygons of one plane overlap, only the first counts, as for rays.
 #[test]
-fn what_is_covered_is_seen_once() {
+fn covered_parts_do_not_count() {
     let square = |low: f64, high: f64, z: f64| {
         [[low, 0.0, z], [high, 0.0, z], [high, 1.0, z], [low, 1.0, z]]
     };

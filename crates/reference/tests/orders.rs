@@ -1,4 +1,4 @@
-//! Form factors of a mesh against every closed form: how fast they converge as patches get smaller.
+//! Convergence of form factors from patches' centres to closed forms as patches get smaller.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
 
@@ -7,14 +7,14 @@ mod common;
 use common::{closed_forms, scene, whole};
 use reference::{Pair, Surface};
 
-/// Edges of patches over those of the first object.
+/// Edges of patches relative to those of the first object.
 const EDGES: [f64; 4] = [0.25, 0.125, 0.062_5, 0.031_25];
 
-/// Patches that shoot from their centres, a ray in every direction: the midpoint rule, whose error falls
-/// as h². Measured from the last but one mesh to the last: opposed 2.00, close 2.05, aside 1.97, adjacent
-/// 2.00, apart 2.00, discs 3.05 (their outline comes in as well), obstructed 2.00.
+/// Exact form factors from the centres of patches: the midpoint rule, whose error falls as h². Orders between the
+/// last two meshes: opposed 2.00, close 2.05, aside 1.97, adjacent
+/// 2.00, apart 2.00, discs 3.05 (their outline changes as well), obstructed 2.00.
 #[test]
-fn meshes_come_to_every_closed_form() {
+fn meshes_converge_to_every_closed_form() {
     for (name, faces, exact) in closed_forms() {
         let scene = scene(&faces);
         let [from, to] = [0, 1].map(|polygon| Surface::of_polygon(&scene, polygon));

@@ -1,4 +1,4 @@
-//! Paths from the lights where the answer is known.
+//! Light paths compared with known solutions.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
 
@@ -19,7 +19,7 @@ fn cube(size: f64) -> (Space, LocalEnvironment, Patches) {
     (space, environment, patches)
 }
 
-/// Thirty-two rounds of so many paths.
+/// The solution of thirty-two rounds of `paths` paths.
 fn solved(cube: &(Space, LocalEnvironment, Patches), problem: Problem, paths: u32) -> Solution {
     let (space, environment, patches) = cube;
     let paths = Paths::new(space, environment, patches, problem, paths, 7);
@@ -30,10 +30,9 @@ fn solved(cube: &(Space, LocalEnvironment, Patches), problem: Problem, paths: u3
     paths.solution(&received)
 }
 
-/// On patches paths solve what the dense solver solves: their difference is of the size that their
-/// standard errors say.
+/// On patches, paths agree with the dense solution within their standard errors.
 #[test]
-fn paths_on_patches_come_to_the_dense_answer() {
+fn paths_on_patches_agree_with_the_dense_solution() {
     let cube = cube(0.5);
     let exact = Dense::new(&cube.0.scene, cube.2.clone(), 1e-6, 2, || ()).solve();
     let found = solved(&cube, Problem::Patches, 20_000);
@@ -48,7 +47,7 @@ fn paths_on_patches_come_to_the_dense_answer() {
 
 /// Irradiances of the continuum on the faces of the cube; extrapolated to about 1e-4.
 #[test]
-fn paths_come_to_the_continuum_whatever_the_mesh() {
+fn paths_agree_with_the_continuum_on_any_mesh() {
     let cube = cube(1.0);
     let found = solved(&cube, Problem::Continuum, 50_000);
     for (face, exact) in
@@ -63,10 +62,10 @@ fn paths_come_to_the_continuum_whatever_the_mesh() {
     }
 }
 
-/// A round is a function of seed and number alone, and no light is lost: each watt emitted falls on
-/// something again and again, half of it each time.
+/// A round depends only on seed and number. Energy is conserved: each watt is received, half of it again, and
+/// so on: 2 W.
 #[test]
-fn rounds_are_the_same_again_and_conserve_energy() {
+fn rounds_are_repeatable_and_conserve_energy() {
     let (space, environment, patches) = cube(0.5);
     let paths = Paths::new(&space, &environment, &patches, Problem::Patches, 1000, 7);
     assert_eq!(paths.round(3), paths.round(3));

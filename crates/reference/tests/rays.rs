@@ -1,4 +1,4 @@
-//! Rays of the default hemisphere against exact form factors: how fast they converge.
+//! Convergence of the rays of the default hemisphere to exact form factors.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
 
@@ -12,7 +12,7 @@ use reference::{ObjectRays, Objects, Pair, Surface, closed_form, element_to_poly
 /// Sizes of the hemisphere; the default is 176².
 const SIDES: [u32; 7] = [32, 45, 64, 90, 128, 176, 256];
 
-/// The p of N^−p that fits errors at all sizes best.
+/// The exponent p of the best fit N^−p to the errors at all sizes.
 fn order(errors: [f64; SIDES.len()]) -> f64 {
     let x = SIDES.map(|side| f64::from(side * side).ln());
     let mean = x.iter().sum::<f64>() / x.len() as f64;
@@ -24,7 +24,7 @@ fn hemisphere(side: u32) -> Hemisphere {
     Hemisphere::new(HemisphereKind::Fibonacci, side * side, true).unwrap()
 }
 
-/// Form factors of rays from a point of a polygon to all patches.
+/// Form factors by rays from a point of a polygon to all patches.
 fn by_rays(
     space: &Space,
     environment: &LocalEnvironment,
@@ -42,11 +42,11 @@ fn by_rays(
     found
 }
 
-/// Energy that goes to the wrong patch in an empty room of 4 × 4 × 3 m, 320 patches of half a metre,
-/// over forty sources: it falls as N^−0.79 or faster, and is at most 0.5 % at 176².
+/// The energy that arrives at a wrong patch, over forty sources in an empty room of 4 × 4 × 3 m with 320 patches
+/// of half a metre, falls as N^−0.79 or faster and is at most 0.5 % at 176².
 #[test]
-fn energy_is_misdirected_less_and_less() {
-    // Walls of 2 m and of 1 m, for patches come by halving.
+fn misdirected_energy_decreases() {
+    // Walls of 2 m and of 1 m, since patches are made by halving.
     let mut faces = room([4.0, 4.0, 3.0]);
     for wall in faces.split_off(2) {
         for [low, high] in [[0.0, 2.0], [2.0, 3.0]] {
@@ -80,10 +80,10 @@ fn energy_is_misdirected_less_and_less() {
     assert!(misdirected[5] <= 5e-3, "{misdirected:?}");
 }
 
-/// From sixty-four points each, root mean square: the error of a lattice of N points over a region
-/// with an edge falls as N^−3/4. So many points fix a fitted order to 0.025.
+/// Root mean square error from sixty-four points: the error of a lattice of N points over a region with an edge
+/// falls as N^−3/4. With sixty-four points the fitted order is accurate to 0.025.
 #[test]
-fn every_closed_form_is_come_to() {
+fn rays_converge_to_every_closed_form() {
     let mut orders = Vec::new();
     for (name, faces, _) in closed_forms() {
         let (space, environment) = whole(scene(&faces), f64::INFINITY);
@@ -114,9 +114,9 @@ fn every_closed_form_is_come_to() {
     assert!(mean >= 0.75, "{mean} {orders:?}");
 }
 
-/// From sixty-four elements each to rectangles of sixty-four shapes that have a closed form: as above.
+/// The same from elements to rectangles of sixty-four shapes that have a closed form.
 #[test]
-fn every_closed_form_of_an_element_is_come_to() {
+fn rays_converge_to_every_closed_form_of_an_element() {
     let side = |i: u32, step: f64| 0.3 + 1.4 * (0.5 + step * f64::from(i)).fract();
     let parallel = |i: u32| {
         let [a, b, c] = [0.754_877, 0.569_840, 0.366_025].map(|step| side(i, step));
@@ -157,9 +157,9 @@ fn every_closed_form_of_an_element_is_come_to() {
     }
 }
 
-/// Rays from points all over an object find the form factor, and know how far off they are.
+/// Rays from points all over an object agree with the form factor within their standard errors.
 #[test]
-fn rays_from_all_over_find_every_closed_form() {
+fn object_rays_agree_with_every_closed_form() {
     let mut squares = 0.0;
     for (name, faces, exact) in closed_forms() {
         let (space, _) = whole(scene(&faces), 1.0);

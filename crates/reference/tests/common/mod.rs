@@ -1,4 +1,4 @@
-//! Scenes whose answer is known.
+//! Scenes with known form factors and solutions.
 
 #![allow(dead_code, reason = "not every test uses all")]
 
@@ -34,13 +34,13 @@ pub fn room([a, b, c]: [f64; 3]) -> Vec<Face> {
     ]
 }
 
-/// Faces of half-grey surfaces.
+/// A scene of faces with reflectance 0.5.
 pub fn scene(faces: &[Face]) -> Scene {
     let objects = ["floor", "ceiling", "walls", "table"].map(str::to_owned).to_vec();
     Scene::new(faces, vec![grey(0.5, 0.0)], objects).unwrap().0
 }
 
-/// A scene as one environment.
+/// A scene as one local environment.
 pub fn whole(scene: Scene, size: f64) -> (Space, LocalEnvironment) {
     let space = Space::new(scene, [4, 4, 4]);
     let size = PatchSize { reflector: size, emitter: size };
@@ -48,7 +48,7 @@ pub fn whole(scene: Scene, size: f64) -> (Space, LocalEnvironment) {
     (space, environment)
 }
 
-/// From object 0, one polygon, to object 1, one polygon: what has a closed form, and the value.
+/// Scenes in which the form factor from object 0 to object 1, one polygon each, has a closed form; and its value.
 pub fn closed_forms() -> Vec<(&'static str, Vec<Face>, f64)> {
     let floor = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
     let and = |points: [[f64; 3]; 4]| vec![quad(floor, 0), quad(points, 1)];

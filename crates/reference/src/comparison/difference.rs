@@ -1,34 +1,33 @@
-//! How far a solution is from a reference, on whatever mesh each of them is.
+//! The difference between a solution and a reference on different meshes.
 
 use radiosity::Rgb;
 use radiosity::glam::DVec3;
 
-use crate::pair::Surface;
-use crate::patches::Patches;
-use crate::ring::{Ring, above, fan};
+use crate::form_factors::clipping::{Ring, above, fan};
+use crate::form_factors::pair::Surface;
+use crate::solutions::patches::Patches;
 
-/// What the patches of one mesh share of the patches of another.
+/// The overlaps of the patches of one mesh with those of another.
 ///
-/// Both are of the same polygons, and constant on each patch. Solutions are compared by their means
-/// over the patches of the reference: its mesh says how finely the answer is asked for, and a finer
-/// solution is as good as its means are.
+/// Both meshes are of the same polygons, and radiosity is constant on each patch. Solutions are compared by
+/// their means over the patches of the reference, so its mesh sets the resolution of the comparison.
 pub struct Overlaps {
     /// For each patch of the reference, patches of the other mesh and the areas that they share, m².
     shared: Vec<Vec<(usize, f64)>>,
 }
 
-/// A difference between two solutions on one mesh, relative to what is reflected: radiosity less
-/// emission, as an area-weighted root mean square over all patches and colours of the reference.
+/// The difference between two solutions on one mesh, relative to the reflected radiosity of the reference:
+/// radiosity less emission, as an area-weighted root mean square over all patches and colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Difference {
-    /// The area-weighted root mean square of the difference, over that.
+    /// The area-weighted root mean square of the difference, relative to it.
     pub relative_l2: f64,
-    /// The greatest difference of any patch and colour, over that.
+    /// The greatest difference of any patch and colour, relative to it.
     pub maximum: f64,
 }
 
 impl Overlaps {
-    /// Of the patches of a reference with those of another mesh of the same scene.
+    /// The overlaps of the patches of a reference with those of another mesh of the same scene.
     pub fn new(reference: &Patches, other: &Patches) -> Overlaps {
         let polygons = other.surfaces.iter().map(|s| s.polygon as usize + 1).max().unwrap_or(0);
         let mut of_polygon = vec![Vec::new(); polygons];
@@ -44,8 +43,8 @@ impl Overlaps {
         Overlaps { shared: shared.collect() }
     }
 
-    /// Means over the patches of the reference of a solution on the other mesh; zero where they share
-    /// nothing.
+    /// Means of a solution on the other mesh over the patches of the reference; zero where nothing
+    /// overlaps.
     pub fn means(&self, radiosity: &[Rgb]) -> Vec<Rgb> {
         let mean = |shared: &Vec<(usize, f64)>| {
             let area: f64 = shared.iter().map(|(_, area)| area).sum();
@@ -57,7 +56,7 @@ impl Overlaps {
 }
 
 impl Difference {
-    /// Of two solutions on the patches of a reference, relative to what it says is reflected.
+    /// The difference between two solutions on the patches of a reference.
     pub fn between(patches: &Patches, reference: &[Rgb], one: &[Rgb], other: &[Rgb]) -> Difference {
         let weighted = |colours: &mut dyn Iterator<Item = Rgb>| -> f64 {
             colours.zip(&patches.areas).map(|(c, area)| c.length_squared() * area).sum()
@@ -78,7 +77,7 @@ impl Difference {
     }
 }
 
-/// The area that two patches of one polygon share, m².
+/// The area in which two patches of one polygon overlap, m².
 fn shared_area(one: &Surface, other: &Surface) -> f64 {
     let Some(&last) = other.corners.last() else { return 0.0 };
     let mut ring: Ring = one.corners.clone();

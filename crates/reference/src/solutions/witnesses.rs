@@ -1,54 +1,54 @@
-//! How far a solution is from the truth, told by several independent and noisy ones.
+//! The error of a solution, estimated by independent sets of light paths, without a reference.
 //!
-//! A witness is light followed along some paths, without any mesh: right on average, and so noisy that no
-//! patch of it can be believed. But how far a solution is from one witness, times how far it is from another,
-//! is on average the square of its own error, since their noises know nothing of each other; and summed over
-//! all patches and pairs of witnesses it is so soon, long before the paths would make a reference.
+//! A witness is a set of light paths, followed without a mesh. It is unbiased but too noisy to be a reference.
+//! The noise of different witnesses is independent, so the product of the differences of a solution from two
+//! witnesses is on average the square of its error. Summed over all patches and pairs of witnesses this
+//! converges with far fewer paths than a reference needs.
 
 use radiosity::{LocalEnvironment, Rgb, Space};
 
-use crate::patches::Patches;
-use crate::paths::{Paths, Problem};
+use crate::solutions::patches::Patches;
+use crate::solutions::paths::{Paths, Problem};
 
-/// How many there are: enough to tell how sure they are together.
+/// The number of witnesses, enough for a standard error.
 const COUNT: u32 = 16;
 
-/// The least paths of a witness.
+/// The fewest paths of a witness in a round.
 const FEWEST: usize = 64;
 
-/// Independent witnesses of a scene's light.
+/// Independent sets of light paths through a scene.
 pub struct Witnesses {
     space: Space,
     environment: LocalEnvironment,
     patches: Patches,
     seed: u64,
-    /// Paths of each in a round, and rounds so far.
+    /// Paths of each witness in a round, and number of rounds.
     paths: u32,
     rounds: u32,
-    /// What has fallen on the patches in all rounds, W, by witness.
+    /// Power received by the patches in all rounds, W, by witness.
     received: Vec<Vec<Rgb>>,
-    /// What they say is reflected: the sum over patches and colours of area × radiosity².
+    /// Estimate of the reflected light: the sum over patches and colours of area × radiosity².
     light: f64,
 }
 
-/// What witnesses say of the error of a solution.
+/// An estimate of the error of a solution.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Testimony {
-    /// The square of its relative error; noise may leave less than nothing of it.
+    /// The square of the relative error; noise may make it negative.
     pub square: f64,
     /// The standard error of that.
     pub deviation: f64,
 }
 
 impl Testimony {
-    /// The relative error, as a reference tells it: a root mean square over what is reflected.
+    /// The relative error: root mean square, relative to the reflected light.
     pub fn error(&self) -> f64 {
         self.square.max(0.0).sqrt()
     }
 }
 
 impl Witnesses {
-    /// Of an environment that is all of the space, after one round.
+    /// Witnesses for an environment that covers the whole space, after one round.
     pub fn new(
         space: Space,
         environment: LocalEnvironment,
@@ -61,26 +61,26 @@ impl Witnesses {
         let (rounds, light) = (0, 0.0);
         let mut witnesses =
             Witnesses { space, environment, patches, seed, paths, rounds, received, light };
-        witnesses.hear(1, threads);
+        witnesses.follow(1, threads);
         witnesses
     }
 
-    /// The patches on which solutions are told.
+    /// The patches on which solutions are compared.
     pub fn patches(&self) -> &Patches {
         &self.patches
     }
 
-    /// Paths followed so far.
+    /// The number of paths followed.
     pub fn paths(&self) -> u64 {
         u64::from(self.rounds) * u64::from(COUNT) * u64::from(self.paths)
     }
 
-    /// Follows as many paths again as so far: half the standard error.
+    /// Doubles the number of paths, which halves the standard error of the square.
     pub fn double(&mut self, threads: usize) {
-        self.hear(self.rounds, threads);
+        self.follow(self.rounds, threads);
     }
 
-    fn hear(&mut self, rounds: u32, threads: usize) {
+    fn follow(&mut self, rounds: u32, threads: usize) {
         let Witnesses { space, environment, patches, seed, .. } = &*self;
         let paths = Paths::new(space, environment, patches, Problem::Continuum, self.paths, *seed);
         let first = self.rounds;
@@ -92,16 +92,16 @@ impl Witnesses {
             }
             sum
         };
-        let heard = parallel::map(COUNT as usize, threads, of_one);
-        for (received, heard) in self.received.iter_mut().zip(heard) {
-            received.iter_mut().zip(heard).for_each(|(sum, power)| *sum += power);
+        let followed = parallel::map(COUNT as usize, threads, of_one);
+        for (received, followed) in self.received.iter_mut().zip(followed) {
+            received.iter_mut().zip(followed).for_each(|(sum, power)| *sum += power);
         }
         self.rounds += rounds;
         let dark = self.patches.emission.clone();
         self.light = self.square(&dark).square;
     }
 
-    /// What they say of a solution, as means over their patches, W/m².
+    /// The error of a solution, given as means over the patches, W/m².
     pub fn error(&self, means: &[Rgb]) -> Testimony {
         let Testimony { square, deviation } = self.square(means);
         match self.light > 0.0 {
@@ -110,11 +110,11 @@ impl Witnesses {
         }
     }
 
-    /// The square of a solution's distance from the truth, summed over areas; with its standard error by
-    /// leaving out each witness in turn.
+    /// The square of the error of a solution, integrated over area, with its standard error by the
+    /// jackknife: each witness is left out in turn.
     fn square(&self, means: &[Rgb]) -> Testimony {
         let n = f64::from(COUNT);
-        // With d the distances from each witness and s their sum: s², each s·d, each d².
+        // With d the difference from each witness and s their sum: s², each s·d, each d².
         let mut whole = 0.0;
         let mut parts = [(0.0, 0.0); COUNT as usize];
         for (patch, &mean) in means.iter().enumerate() {

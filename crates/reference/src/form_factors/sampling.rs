@@ -1,10 +1,10 @@
-//! Points of surfaces for numbers in [0, 1).
+//! Points of surfaces from numbers in [0, 1).
 
 use radiosity::glam::DVec3;
 
-use crate::ring::fan;
+use crate::form_factors::clipping::fan;
 
-/// The point of a convex polygon that two numbers stand for; equal areas for equal parts of the square.
+/// Maps two numbers to a point of a convex polygon; equal parts of the unit square give equal areas.
 pub(crate) fn point_of(ring: &[DVec3], u: f64, v: f64) -> DVec3 {
     let areas = fan(ring).map(|[a, b, c]| (b - a).cross(c - a).length());
     let (triangle, u) = choose(areas, u);
@@ -13,7 +13,7 @@ pub(crate) fn point_of(ring: &[DVec3], u: f64, v: f64) -> DVec3 {
     a + ((b - a) + (c - b) * v) * root
 }
 
-/// Which of some weights a number falls on, and how far along it.
+/// Chooses a weight in proportion; also returns the position within it, in [0, 1).
 pub(crate) fn choose(weights: impl Iterator<Item = f64> + Clone, number: f64) -> (usize, f64) {
     let mut left = number * weights.clone().sum::<f64>();
     let mut last = (0, 0.0);
@@ -22,14 +22,14 @@ pub(crate) fn choose(weights: impl Iterator<Item = f64> + Clone, number: f64) ->
             return (i, left / weight);
         }
         left -= weight;
-        // Where rounding has left a little over.
+        // The result if rounding leaves a remainder.
         last = (i, 1.0 - f64::EPSILON);
     }
     last
 }
 
-/// Point `i` of an evenly spread sequence over the unit square: Kronecker's with the plastic number
-/// (Roberts 2018), moved by a shift.
+/// Point `i` of a low-discrepancy sequence over the unit square: the Kronecker sequence of the plastic number
+/// (Roberts 2018), shifted.
 pub(crate) fn spread(i: u32, [s, t]: [f64; 2]) -> [f64; 2] {
     const STEPS: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
     [(s + STEPS[0] * f64::from(i)).fract(), (t + STEPS[1] * f64::from(i)).fract()]

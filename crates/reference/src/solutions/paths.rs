@@ -1,5 +1,5 @@
-//! Light followed along its paths from the emitters: an answer for scenes of any size, with rays cast
-//! one by one by the kernel's exact test, and with a standard error.
+//! Radiosities by light paths from the emitters, with standard errors, for scenes of any size. Rays are cast one
+//! by one by the kernel's single-ray test.
 
 use radiosity::glam::{DVec3, dvec3};
 use radiosity::{End, LocalEnvironment, Ray, Rgb, Space, Work, cast};
@@ -7,21 +7,21 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
-use crate::dense::Solution;
-use crate::patches::Patches;
-use crate::sampling::point_of;
+use crate::form_factors::sampling::point_of;
+use crate::solutions::dense::Solution;
+use crate::solutions::patches::Patches;
 
-/// Which problem the answer is of.
+/// The problem that is solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Problem {
-    /// Each patch sends out light evenly all over it: what radiosity solves on this mesh.
+    /// Radiosity is constant on each patch: the problem that radiosity solves on this mesh.
     Patches,
-    /// Light goes on from where it falls, and the mesh is only what it is averaged over.
+    /// Radiosity varies continuously; the mesh is used only for averages.
     Continuum,
 }
 
-/// Follows light through a scene, round after round.
+/// Follows light through a scene in independent rounds.
 pub struct Paths<'a> {
     space: &'a Space,
     environment: &'a LocalEnvironment,
@@ -33,22 +33,22 @@ pub struct Paths<'a> {
     emitted: Vec<f64>,
 }
 
-/// Power that has fallen on each patch, summed over rounds.
+/// Power received by each patch, summed over rounds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Received {
-    /// Rounds so far.
+    /// Number of rounds.
     pub rounds: u32,
-    /// W.
+    /// Sums, W.
     sum: Vec<[f64; 3]>,
-    /// W².
+    /// Sums of squares, W².
     squares: Vec<[f64; 3]>,
 }
 
-/// A path goes on with at most this probability, so that it ends even between mirrors.
-const GOES_ON: f64 = 0.999;
+/// Upper limit of the probability that a path continues, so that paths end even if reflectances are 1.
+const MAX_CONTINUATION: f64 = 0.999;
 
 impl<'a> Paths<'a> {
-    /// Rounds of `paths` paths each through an environment that is all of the space.
+    /// Rounds of `paths` paths each through an environment that covers the whole space.
     pub fn new(
         space: &'a Space,
         environment: &'a LocalEnvironment,
@@ -62,14 +62,15 @@ impl<'a> Paths<'a> {
         Paths { space, environment, patches, problem, seed, paths, emitted }
     }
 
-    /// The power that falls on each patch in one round, W: a function of seed and number alone.
+    /// The power received by each patch in one round, W. It depends only on the seed and the number of the
+    /// round.
     pub fn round(&self, number: u32) -> Vec<Rgb> {
         let mut random = ChaCha8Rng::seed_from_u64(self.seed);
         random.set_stream(u64::from(number));
         let mut received = vec![Rgb::ZERO; self.patches.count()];
         let all: f64 = self.emitted.iter().sum();
         if all > 0.0 {
-            // One path starts in each of as many equal parts of the power.
+            // Stratified: the power is divided into equal parts, and one path starts in each.
             let mut below = 0.0;
             let mut emitter = 0;
             for path in 0..self.paths {
@@ -87,7 +88,7 @@ impl<'a> Paths<'a> {
         received
     }
 
-    /// Follow a path from a random point of a patch.
+    /// Follows a path from a random point of a patch.
     fn follow(
         &self,
         mut patch: usize,
@@ -112,11 +113,11 @@ impl<'a> Paths<'a> {
             received[patch] += power;
 
             let reflected = power * self.patches.reflectance[patch];
-            let goes_on = (reflected.max_element() / power.max_element()).min(GOES_ON);
-            if random.random::<f64>() >= goes_on {
+            let continues = (reflected.max_element() / power.max_element()).min(MAX_CONTINUATION);
+            if random.random::<f64>() >= continues {
                 return;
             }
-            power = reflected / goes_on;
+            power = reflected / continues;
             point = match self.problem {
                 Problem::Patches => self.point_on(patch, random),
                 Problem::Continuum => hit,
@@ -133,8 +134,8 @@ impl<'a> Paths<'a> {
         point_of(corners, u, v)
     }
 
-    /// Radiosities and their standard errors, after two rounds or more. Where little light has
-    /// fallen the error is at least that of one path.
+    /// Radiosities and their standard errors, after at least two rounds. The error is at least the
+    /// contribution of one path, for patches that received little light.
     pub fn solution(&self, received: &Received) -> Solution {
         let n = f64::from(received.rounds);
         let one: f64 = self.emitted.iter().sum::<f64>() / (f64::from(self.paths) * n);
@@ -154,13 +155,13 @@ impl<'a> Paths<'a> {
 }
 
 impl Received {
-    /// Nothing yet, of so many patches.
+    /// No rounds yet, for this number of patches.
     pub fn new(patches: usize) -> Received {
         let zero = vec![[0.0; 3]; patches];
         Received { rounds: 0, sum: zero.clone(), squares: zero }
     }
 
-    /// Count the next round.
+    /// Adds the next round.
     pub fn add(&mut self, round: &[Rgb]) {
         for (i, &power) in round.iter().enumerate() {
             self.sum[i] = (Rgb::from(self.sum[i]) + power).to_array();
@@ -169,13 +170,13 @@ impl Received {
         self.rounds += 1;
     }
 
-    /// Whether it is of so many patches.
+    /// Whether it has this number of patches.
     pub fn is_of(&self, patches: usize) -> bool {
         self.sum.len() == patches && self.squares.len() == patches
     }
 }
 
-/// A random direction over a normal; probability in proportion to the cosine (Nusselt's analogue).
+/// A random direction with cosine-weighted probability (Nusselt's analogue).
 fn cosine_weighted(normal: DVec3, random: &mut ChaCha8Rng) -> DVec3 {
     let (square, turn): (f64, f64) = (random.random(), random.random());
     let (sin, cos) = libm::sincos(std::f64::consts::TAU * turn);

@@ -1,10 +1,10 @@
-//! Gauss's rules, over an interval and over a triangle.
+//! Gauss–Legendre quadrature over an interval and over a triangle.
 
 use std::sync::LazyLock;
 
 use radiosity::glam::DVec3;
 
-/// How many points a rule has along each side.
+/// The number of points of a rule along each side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Order {
     Two,
@@ -31,8 +31,8 @@ pub(crate) fn over_triangle([a, b, c]: [DVec3; 3], order: Order, f: impl Fn(DVec
     twice_area * sum
 }
 
-/// `n` × `n` points of the unit square for an integrand that carries a factor u: a square of which one
-/// side is drawn together into a corner of a triangle.
+/// `n` × `n` points of the unit square, one side of which is collapsed into a corner of a triangle. The weights
+/// include the factor u of that map.
 fn collapsed(n: u32) -> Vec<Point> {
     let rule = interval(n);
     let point = |&(u, wu): &(f64, f64)| rule.iter().map(move |&(v, wv)| (u, v, u * wu * wv));

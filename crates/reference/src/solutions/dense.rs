@@ -2,32 +2,32 @@
 
 use radiosity::{Rgb, Scene};
 
-use crate::conjugate::{Symmetric, solve};
-use crate::cubature::{Estimate, Tolerance};
-use crate::pair::Pair;
-use crate::patches::Patches;
+use crate::form_factors::cubature::{Estimate, Tolerance};
+use crate::form_factors::pair::Pair;
+use crate::solutions::conjugate_gradients::{Symmetric, solve};
+use crate::solutions::patches::Patches;
 
 /// Form factors between all patches of a scene.
 pub struct Dense {
     patches: Patches,
-    /// Area times form factor, m²: the same there and back.
+    /// Area times form factor, m²; symmetric by reciprocity.
     exchange: Symmetric,
-    /// How far each may be off, m².
+    /// Error of each, m².
     error: Symmetric,
 }
 
-/// Radiosities and how far they may be off.
+/// Radiosities and their errors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
-    /// Of each patch, W/m².
+    /// Radiosity of each patch, W/m².
     pub radiosity: Vec<Rgb>,
-    /// Of each patch, W/m².
+    /// Error for each patch, W/m².
     pub error: Vec<Rgb>,
 }
 
 impl Solution {
-    /// Its error over what is reflected, radiosity less emission, both as area-weighted root mean
-    /// squares over all patches and colours.
+    /// The error relative to the reflected radiosity (radiosity less emission), both as area-weighted root
+    /// mean squares over all patches and colours.
     pub fn relative_l2_error(&self, patches: &Patches) -> f64 {
         let squares = |colours: &mut dyn Iterator<Item = Rgb>| -> f64 {
             colours.zip(&patches.areas).map(|(c, area)| c.length_squared() * area).sum()
@@ -40,8 +40,8 @@ impl Solution {
 }
 
 impl Dense {
-    /// Form factors whose errors add up to some `tolerance` a patch, more where most cells of the
-    /// quadrature did not suffice; `done` is called as each patch is finished.
+    /// Form factors whose errors add up to about `tolerance` for each patch, more where the quadrature
+    /// reached its limit of cells. Calls `done` after each patch.
     pub fn new(
         scene: &Scene,
         patches: Patches,
@@ -52,7 +52,7 @@ impl Dense {
         let all: f64 = patches.areas.iter().sum();
         let exchange = |from: usize, to: usize| {
             let pair = Pair::new(scene, &patches.surfaces[from], &patches.surfaces[to]);
-            // A share of what is allowed by area, and as much again by form factor.
+            // Half of the tolerance is shared by area, half by form factor.
             let absolute = tolerance * patches.areas[from] * patches.areas[to] / all;
             let tolerance = Tolerance { absolute, relative: tolerance };
             pair.map_or(Estimate::default(), |pair| pair.exchange(tolerance))
@@ -75,7 +75,7 @@ impl Dense {
         self.exchange.at(from, to) / self.patches.areas[from].max(f64::MIN_POSITIVE)
     }
 
-    /// The patches.
+    /// The patches of the system.
     pub fn patches(&self) -> &Patches {
         &self.patches
     }
@@ -94,8 +94,9 @@ impl Dense {
         solution
     }
 
-    /// One colour, with the error: that of the form factors carried through the same system, which is
-    /// a bound since no entry of the inverse is negative, and that of the solver.
+    /// Radiosities of one colour and their errors. The errors of the form factors are propagated through the
+    /// same system, which gives a bound since no entry of the inverse is negative; the error of the solver is
+    /// added.
     fn solve_colour(&self, colour: usize) -> (Vec<f64>, Vec<f64>) {
         let reflectance: Vec<f64> = self.patches.reflectance.iter().map(|r| r[colour]).collect();
         let emission: Vec<f64> = self.patches.emission.iter().map(|e| e[colour]).collect();

@@ -1,4 +1,4 @@
-//! Form factors between objects by rays: the kernel's own, from points all over the object.
+//! Form factors between objects by rays of the kernel, from points all over the object.
 
 use radiosity::glam::DVec3;
 use radiosity::{
@@ -8,9 +8,9 @@ use radiosity::{
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::cubature::Estimate;
-use crate::objects::Objects;
-use crate::sampling::{choose, point_of, spread};
+use crate::form_factors::cubature::Estimate;
+use crate::form_factors::objects::Objects;
+use crate::form_factors::sampling::{choose, point_of, spread};
 
 /// Shoots from random points of objects.
 pub struct ObjectRays<'a> {
@@ -19,23 +19,23 @@ pub struct ObjectRays<'a> {
     /// Each polygon one patch.
     environment: LocalEnvironment,
     hemisphere: Hemisphere,
-    /// Of each set.
+    /// Points of each set.
     points: u32,
     seed: u64,
 }
 
-/// Sets of points, each spread evenly and shifted at random: how much their answers differ is the
-/// error of their mean.
+/// Sets of points, each evenly spread with a random shift. The spread of their results gives the standard
+/// error of the mean.
 const SETS: u32 = 16;
 
-/// Rays from a point: few, for where a source is sampled matters more than how finely it looks.
+/// Rays from a point. Few, since more points reduce the error more than more rays from a point.
 const PIXELS: u32 = 1_024;
 
 impl<'a> ObjectRays<'a> {
-    /// Some `rays` from each object, at least sixteen points' worth.
+    /// About `rays` rays from each object, from at least sixteen points.
     ///
     /// # Errors
-    /// Never for a number of pixels that a hemisphere can have, as is the case here.
+    /// Those of [`Hemisphere::new`]; they cannot occur with this number of pixels.
     pub fn new(
         objects: &'a Objects<'a>,
         space: &'a Space,

@@ -1,37 +1,37 @@
-//! Two convex polygons that may see each other.
+//! Form factors between two convex polygons, with the shadows of others.
 
 use radiosity::glam::DVec3;
 use radiosity::{Bounds, Plane, Scene};
 
-use crate::cubature::{Estimate, Part, Tolerance, integrate, quarters};
-use crate::element::contour;
-use crate::ring::{Ring, above, cut_out, fan, seen_from, sides, without_repeats};
+use crate::form_factors::clipping::{Ring, above, cut_out, fan, seen_from, sides, without_repeats};
+use crate::form_factors::cubature::{Estimate, Part, Tolerance, integrate, quarters};
+use crate::form_factors::element::contour;
 
 /// A convex part of a scene's polygon.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Surface {
-    /// Its corners, counter-clockwise seen from the front, local coordinates.
+    /// Corners, counter-clockwise seen from the front, local coordinates.
     pub corners: Vec<DVec3>,
-    /// Its plane.
+    /// The plane.
     pub plane: Plane,
     /// The polygon that it belongs to.
     pub polygon: u32,
 }
 
-/// What two surfaces exchange, made ready to be integrated over the first: each without what lies
-/// behind the other, and what may stand between them.
+/// Two surfaces, prepared for integration over the first: each without the part behind the other, and the
+/// polygons that may block light between them.
 ///
 /// As for rays, a polygon is opaque from both sides. Where polygons of one plane that face the same
-/// way overlap, all but the first of them are not there.
+/// way overlap, only the first of them counts.
 pub struct Pair {
     from: Vec<Ring>,
     normal: DVec3,
     to: Vec<Ring>,
-    /// The largest first: it may hide all.
+    /// The largest first, since it may hide everything.
     blockers: Vec<Blocker>,
 }
 
-/// What of a polygon may stand between two others.
+/// The part of a polygon that may block light between two others.
 struct Blocker {
     corners: Ring,
     plane: Plane,
@@ -49,7 +49,7 @@ impl Surface {
         height(&self.plane, point)
     }
 
-    /// Its uncovered parts in front of another surface.
+    /// The parts that are in front of another surface and not covered by an earlier polygon.
     fn in_front_of(&self, other: &Surface, scene: &Scene) -> Vec<Ring> {
         let tolerance = scene.tolerance();
         if !self.corners.iter().any(|&p| other.height(p) > tolerance) {
@@ -60,7 +60,7 @@ impl Surface {
             let alike = cover.plane.normal.dot(self.plane.normal) > 0.0
                 && scene.corners(cover).all(|p| self.height(p).abs() <= tolerance);
             if alike {
-                // Anywhere before them will do to look from.
+                // Any point in front of them can be the eye.
                 let eye = self.corners[0] + self.plane.normal;
                 let cover = seen_from(eye, &scene.corners(cover).collect::<Ring>());
                 let seen = parts.iter().map(|part| seen_from(eye, part)).collect();
@@ -73,7 +73,7 @@ impl Surface {
 }
 
 impl Pair {
-    /// Two surfaces of a scene; none if neither ever sees the other's front.
+    /// Two surfaces of a scene; `None` if they do not face each other.
     pub fn new(scene: &Scene, from: &Surface, to: &Surface) -> Option<Pair> {
         let (source, target) = (from.in_front_of(to, scene), to.in_front_of(from, scene));
         if from.polygon == to.polygon || source.is_empty() || target.is_empty() {
@@ -87,8 +87,8 @@ impl Pair {
         Some(Pair { from: source, normal: from.plane.normal, to: target, blockers })
     }
 
-    /// The form factor from an element of the first surface to what it sees of the second, exact to
-    /// rounding: the shadows of all that stands between are cut out.
+    /// The form factor from an element of the first surface to the visible part of the second, exact to
+    /// rounding: the shadows of all blockers are cut out.
     pub fn from_element(&self, point: DVec3) -> f64 {
         let seen = |ring: &Ring| seen_from(point, ring);
         let mut pieces: Vec<Ring> = self.to.iter().map(seen).collect();
@@ -109,7 +109,7 @@ impl Pair {
         if smooth {
             triangles.map(part).collect()
         } else {
-            // A look all over the surface: what no point sees would be taken for dark.
+            // Finer from the start: light that no sample point sees would be missed.
             triangles.flat_map(quarters).map(part).collect()
         }
     }
@@ -121,11 +121,11 @@ impl Pair {
 }
 
 impl Blocker {
-    /// None for a polygon that cannot stand between the two surfaces.
+    /// `None` for a polygon that cannot be between the two surfaces.
     fn new(scene: &Scene, polygon: u32, from: &Surface, to: &Surface) -> Option<Blocker> {
         let Surface { corners, plane, .. } = Surface::of_polygon(scene, polygon);
         let tolerance = scene.tolerance();
-        // Its plane must part them.
+        // Its plane must separate them.
         let reach = |surface: &Surface, side: f64| {
             surface.corners.iter().any(|&p| side * height(&plane, p) > tolerance)
         };
@@ -141,8 +141,7 @@ impl Blocker {
         possible.then_some(Blocker { corners, plane, area })
     }
 
-    /// What is left of pieces, given as seen from `point`, outside the shadow that light at `point`
-    /// would cast.
+    /// The parts of pieces, in coordinates relative to `point`, outside the shadow for a light at `point`.
     fn shade(&self, pieces: Vec<Ring>, point: DVec3) -> Vec<Ring> {
         let side = height(&self.plane, point);
         if side == 0.0 {
@@ -158,7 +157,7 @@ fn height(plane: &Plane, point: DVec3) -> f64 {
     plane.normal.dot(point) - plane.offset
 }
 
-/// Whether corners all lie beyond the box around two surfaces, on one side of it.
+/// Whether all corners are outside the bounding box of two surfaces, on one side of it.
 fn outside(corners: &[DVec3], from: &Surface, to: &Surface) -> bool {
     let both = Bounds::of(from.corners.iter().chain(&to.corners).copied());
     let own = Bounds::of(corners.iter().copied());

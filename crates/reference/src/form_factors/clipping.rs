@@ -1,4 +1,4 @@
-//! Convex polygons as rings of corners, and their parts.
+//! Clipping of convex polygons by planes and by the shadows of other polygons.
 
 use radiosity::glam::DVec3;
 
@@ -6,7 +6,7 @@ use radiosity::glam::DVec3;
 pub(crate) type Ring = Vec<DVec3>;
 
 /// The parts of a convex polygon on either side of a plane: where `height`, which is linear, is not
-/// negative, and the rest. A part that is less than a triangle is empty.
+/// negative, and the rest. A part with fewer than three corners is empty.
 pub(crate) fn split(ring: &[DVec3], height: impl Fn(DVec3) -> f64) -> [Ring; 2] {
     let mut parts = [Vec::with_capacity(ring.len() + 2), Vec::with_capacity(ring.len() + 2)];
     let Some(&last) = ring.last() else { return parts };
@@ -33,13 +33,13 @@ pub(crate) fn above(ring: &[DVec3], height: impl Fn(DVec3) -> f64) -> Ring {
     above
 }
 
-/// What of `pieces` the origin sees beside a convex polygon: all of them, and the polygon, are given as
-/// seen from there; the pieces show their fronts, and the polygon's sides, as [`sides`] has them, point
-/// inwards.
+/// The parts of `pieces` that a convex polygon does not hide from the origin. All coordinates are relative to
+/// the origin; the pieces face it; `inwards` are the planes of the polygon's [`sides`], pointing inwards.
 pub(crate) fn cut_out(pieces: Vec<Ring>, polygon: &[DVec3], inwards: &[DVec3]) -> Vec<Ring> {
-    // Two convex polygons that do not overlap lie on two sides of an edge of one of them.
-    let beside =
-        |piece: &Ring| part(inwards, polygon, piece) || part(&sides(piece), piece, polygon);
+    // Two convex polygons that do not overlap are separated by an edge of one of them.
+    let beside = |piece: &Ring| {
+        separates(inwards, polygon, piece) || separates(&sides(piece), piece, polygon)
+    };
     if pieces.iter().all(beside) {
         return pieces;
     }
@@ -61,9 +61,9 @@ pub(crate) fn cut_out(pieces: Vec<Ring>, polygon: &[DVec3], inwards: &[DVec3]) -
     left
 }
 
-/// Whether one of the planes has a ring on its upper side and another on its lower. That the first is
-/// must be seen: the plane of an edge without length may lie anywhere.
-fn part(planes: &[DVec3], upper: &[DVec3], lower: &[DVec3]) -> bool {
+/// Whether one of the planes has one ring on its upper side and another on its lower. Both must be tested, since
+/// the plane of an edge of length 0 is arbitrary.
+fn separates(planes: &[DVec3], upper: &[DVec3], lower: &[DVec3]) -> bool {
     planes.iter().any(|plane| {
         let slack = 1e-12 * plane.length();
         lower.iter().all(|p| plane.dot(*p) <= 0.0)
@@ -72,7 +72,7 @@ fn part(planes: &[DVec3], upper: &[DVec3], lower: &[DVec3]) -> bool {
     })
 }
 
-/// A ring without corners that all but repeat the one before.
+/// A ring without corners that repeat the one before within a tolerance.
 pub(crate) fn without_repeats(mut ring: Ring, tolerance: f64) -> Ring {
     ring.dedup_by(|next, before| next.distance(*before) <= tolerance);
     while ring.len() > 1 && ring[0].distance(ring[ring.len() - 1]) <= tolerance {
@@ -81,13 +81,14 @@ pub(crate) fn without_repeats(mut ring: Ring, tolerance: f64) -> Ring {
     if ring.len() < 3 { Vec::new() } else { ring }
 }
 
-/// Normals of the planes through the origin and each edge of a ring: inwards if it shows its front.
+/// Normals of the planes through the origin and each edge of a ring. They point inwards if the ring faces the
+/// origin.
 pub(crate) fn sides(ring: &[DVec3]) -> Vec<DVec3> {
     let next = ring.iter().cycle().skip(1);
     ring.iter().zip(next).map(|(&a, &b)| b.cross(a)).collect()
 }
 
-/// A ring as seen from a point.
+/// A ring in coordinates relative to a point.
 pub(crate) fn seen_from(point: DVec3, ring: &[DVec3]) -> Ring {
     ring.iter().map(|&p| p - point).collect()
 }

@@ -1,9 +1,8 @@
-//! Dense symmetric matrices, and the method of conjugate gradients for what a scene reflects.
+//! Dense symmetric matrices, and conjugate gradients for the radiosity system.
 //!
-//! Written out and not taken from a linear-algebra crate: the system is symmetric and positive
-//! definite once scaled, some ten to fifty products with the matrix solve it to machine precision, and
-//! the bound on what is left is one of this problem's own. A crate's factorisation would take n³/3
-//! operations a colour and some of the time that the whole project takes to build.
+//! No linear-algebra crate is used: the scaled system is symmetric and positive definite, ten to fifty
+//! products with the matrix solve it to machine precision, and the error bound is specific to this problem. A
+//! factorisation would take n³/3 operations for each colour, and such a crate much of the build time.
 
 /// A symmetric matrix with zeros on its diagonal.
 pub(crate) struct Symmetric {
@@ -36,11 +35,11 @@ impl Symmetric {
     }
 }
 
-/// The irradiances H with A H = g + G (ρ H), and a bound on how far any of them is off; infinite
-/// where rounding leaves no bound. A: areas; G: areas times form factors; ρ: reflectances.
+/// The irradiances H with A H = g + G (ρ H), and a bound of the error of each; infinite if
+/// rounding leaves no bound. A: areas; G: areas times form factors; ρ: reflectances.
 ///
 /// The rows times ρ make the symmetric system (A ρ − ρ G ρ) H = ρ g, positive definite where ρ is not
-/// zero. A last gathering gives H where it is, and says how far off the rest was.
+/// zero. A last gathering step gives H where ρ is zero, and bounds the error elsewhere.
 pub(crate) fn solve(
     exchange: &Symmetric,
     areas: &[f64],
@@ -60,7 +59,7 @@ pub(crate) fn solve(
     let start = gather(&vec![0.0; areas.len()]);
     let h = conjugate_gradients(apply, &diagonal, &product(reflectance, gathered), start);
     let better = gather(&h);
-    // Gathering draws any two light fields together by at least this.
+    // The contraction factor of a gathering step.
     let rows = exchange.times(reflectance);
     let rows = rows.iter().zip(areas).filter(|&(_, &area)| area > 0.0);
     let contraction = rows.map(|(sum, area)| sum / area).fold(0.0, f64::max);
@@ -71,8 +70,8 @@ pub(crate) fn solve(
     (better, bound)
 }
 
-/// Solves `apply(x) = right` from `x` on, preconditioned by the diagonal, until rounding stops it
-/// (Hestenes and Stiefel 1952). Where the diagonal is zero, so is the whole row.
+/// Solves `apply(x) = right` with `x` as first guess, preconditioned by the diagonal, until rounding stops
+/// progress (Hestenes and Stiefel 1952). Where the diagonal is zero, so is the whole row.
 fn conjugate_gradients(
     apply: impl Fn(&[f64]) -> Vec<f64>,
     diagonal: &[f64],
@@ -107,7 +106,7 @@ fn conjugate_gradients(
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
-    // Eight sums that do not wait for one another.
+    // Eight independent sums, for vector instructions.
     let mut sums = [0.0; 8];
     let (a8, b8) = (a.chunks_exact(8), b.chunks_exact(8));
     let rest: f64 = a8.remainder().iter().zip(b8.remainder()).map(|(a, b)| a * b).sum();
@@ -129,10 +128,10 @@ fn add(x: &mut [f64], factor: f64, p: &[f64]) {
 mod tests {
     use super::*;
 
-    /// Ten patches that see one another evenly, and one that reflects nothing: gathering again and
-    /// again comes to the same, up to a reflectance of 0.999.
+    /// Ten patches that see each other equally, one of them black: repeated gathering gives the same
+    /// solution, up to a reflectance of 0.999.
     #[test]
-    fn gathering_comes_to_the_same() {
+    fn repeated_gathering_gives_the_same_solution() {
         let areas: Vec<f64> = (1..=10).map(f64::from).collect();
         let rows = (0..10).map(|i| (0..i).map(|j| areas[i] * areas[j] / 60.0).collect()).collect();
         let exchange = Symmetric::new(rows);

@@ -1,9 +1,9 @@
-//! Form factors between the objects of a scene, an object being the union of its faces.
+//! Form factors between the objects of a scene; an object is the union of its faces.
 
 use radiosity::Scene;
 
-use crate::cubature::{Estimate, Tolerance, integrate};
-use crate::pair::{Pair, Surface};
+use crate::form_factors::cubature::{Estimate, Tolerance, integrate};
+use crate::form_factors::pair::{Pair, Surface};
 
 /// The objects of a scene that have faces.
 pub struct Objects<'a> {
@@ -34,33 +34,33 @@ impl<'a> Objects<'a> {
         Objects { scene, objects }
     }
 
-    /// How many there are.
+    /// The number of objects.
     pub fn count(&self) -> usize {
         self.objects.len()
     }
 
-    /// The name of one.
+    /// The name of an object.
     pub fn name(&self, object: usize) -> &str {
         &self.scene.objects[self.objects[object].number as usize]
     }
 
-    /// The area of one, m².
+    /// The area of an object, m².
     pub fn area(&self, object: usize) -> f64 {
         self.objects[object].area
     }
 
-    /// The polygons of one.
+    /// The polygons of an object.
     pub(crate) fn faces(&self, object: usize) -> &[u32] {
         &self.objects[object].faces
     }
 
-    /// Which of them is number so much in the scene.
+    /// The index here of the object with this number in the scene.
     pub(crate) fn place(&self, number: u32) -> Option<usize> {
         self.objects.binary_search_by_key(&number, |object| object.number).ok()
     }
 
-    /// The form factors between two objects, either way, each to within `tolerance` if that can be
-    /// reached; the error says.
+    /// The form factors between two objects in both directions. Each error is at most `tolerance` if that
+    /// can be reached.
     pub fn exact(&self, one: usize, other: usize, tolerance: f64) -> [Estimate; 2] {
         let (from, to) = (&self.objects[one], &self.objects[other]);
         let surfaces = |object: &Object| -> Vec<Surface> {

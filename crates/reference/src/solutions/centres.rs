@@ -1,11 +1,11 @@
-//! The radiosity system with form factors from single points of each patch, exact to rounding: what
-//! shooting from there would find with a ray in every direction.
+//! The radiosity system with form factors from points of patches, exact to rounding: the limit of shooting
+//! from these points with infinitely many rays.
 
 use radiosity::glam::DVec3;
 use radiosity::{Rgb, Scene};
 
-use crate::pair::Pair;
-use crate::patches::Patches;
+use crate::form_factors::pair::Pair;
+use crate::solutions::patches::Patches;
 
 /// Form factors from points of patches.
 pub struct Centres {
@@ -14,13 +14,13 @@ pub struct Centres {
     form_factors: Vec<Vec<f64>>,
 }
 
-/// The system counts as solved when no radiosity changes by more than this, relative to the greatest.
+/// Iteration stops when no radiosity changes by more than this, relative to the greatest.
 const SOLVED: f64 = 1e-13;
-/// Rounds after which it is as good as it will get, with reflectances near 1.
+/// Most iterations, for reflectances near 1.
 const MOST_ROUNDS: usize = 100_000;
 
 impl Centres {
-    /// Form factors from `points` of each patch, with the share of its power that each sends out.
+    /// Form factors from `points` of each patch, each with its share of the power of the patch.
     pub fn new(
         scene: &Scene,
         patches: Patches,
@@ -44,7 +44,7 @@ impl Centres {
         self.form_factors[from][to]
     }
 
-    /// Radiosities, W/m²: what leaves a patch falls on others by these form factors, again and again.
+    /// Radiosities, W/m², by Jacobi iteration.
     pub fn solve(&self) -> Vec<Rgb> {
         let Patches { areas, reflectance, emission, .. } = &self.patches;
         let mut radiosity = emission.clone();

@@ -3,14 +3,14 @@
 use radiosity::{LocalEnvironment, Rgb, Space};
 use sha2::{Digest, Sha256};
 
-use crate::pair::Surface;
+use crate::form_factors::pair::Surface;
 
-/// What a solution on patches needs to know of them, in the environment's order.
+/// The properties of patches that a solution depends on, in the order of the environment.
 #[derive(Clone)]
 pub struct Patches {
     /// Shapes; a patch without area has no corners.
     pub surfaces: Vec<Surface>,
-    /// m².
+    /// Areas, m².
     pub areas: Vec<f64>,
     /// Reflectances.
     pub reflectance: Vec<Rgb>,
@@ -19,16 +19,16 @@ pub struct Patches {
 }
 
 impl Patches {
-    /// The patches of an environment, which is to be all of the space.
+    /// The patches of an environment that covers the whole space.
     pub fn new(space: &Space, environment: &LocalEnvironment) -> Patches {
         Patches::of_all(space, std::slice::from_ref(environment))
     }
 
-    /// The patches of environments, which are to be all of the space among them, one after the other.
+    /// The patches of environments that together cover the whole space, one environment after the other.
     pub fn of_all(space: &Space, environments: &[LocalEnvironment]) -> Patches {
         let polygon = |patch: &radiosity::Patch| &space.scene.polygons[patch.polygon as usize];
         let patches = || environments.iter().flat_map(|environment| &environment.patches);
-        // What is smaller than a point counts for nothing: rounding alone would decide what it sees.
+        // Patches smaller than the tolerance have no area: what they see would depend on rounding.
         let least = space.scene.tolerance().powi(2);
         let area = |patch: &radiosity::Patch| if patch.area > least { patch.area } else { 0.0 };
         let surfaces = environments.iter().flat_map(|environment| {
@@ -50,13 +50,13 @@ impl Patches {
         }
     }
 
-    /// How many there are.
+    /// The number of patches.
     pub fn count(&self) -> usize {
         self.areas.len()
     }
 
-    /// SHA-256 of all of it, in hexadecimal: what a stored solution belongs to, whatever the files
-    /// looked like that the scene came from.
+    /// SHA-256 of all properties, in hexadecimal. It identifies the problem of a stored solution,
+    /// independently of the format of the scene files.
     pub fn digest(&self) -> String {
         let mut digest = Sha256::new();
         let mut put = |number: f64| digest.update(number.to_le_bytes());

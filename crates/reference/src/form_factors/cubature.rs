@@ -5,19 +5,18 @@ use std::collections::BinaryHeap;
 
 use radiosity::glam::DVec3;
 
-use crate::gauss::{Order, over_triangle};
+use crate::form_factors::gauss::{Order, over_triangle};
 
-/// A value and how far it may be off.
+/// A value and its error.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Estimate {
     /// The value.
     pub value: f64,
-    /// The difference between this and a coarser rule, summed over all parts as if no two errors ever
-    /// offset each other.
+    /// The difference from a coarser rule, summed over all parts as absolute values.
     pub error: f64,
 }
 
-/// What error is small enough: so much, or such a part of the value, whichever is more.
+/// The greatest error allowed: the absolute or the relative one, whichever is greater.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
     /// In the unit of the value.
@@ -33,7 +32,7 @@ impl Tolerance {
 }
 
 impl Estimate {
-    /// The same divided by a positive number.
+    /// The estimate divided by a positive number.
     pub(crate) fn over(self, divisor: f64) -> Estimate {
         Estimate { value: self.value / divisor, error: self.error / divisor }
     }
@@ -57,9 +56,9 @@ impl std::iter::Sum for Estimate {
 #[derive(Clone, Copy)]
 pub(crate) struct Part {
     pub(crate) triangle: [DVec3; 3],
-    /// Which function.
+    /// The number of the function.
     pub(crate) function: usize,
-    /// Whether it has derivatives of all orders; else rules of high order are no use.
+    /// Whether it has derivatives of all orders; otherwise rules of high order do not help.
     pub(crate) smooth: bool,
 }
 
@@ -69,11 +68,11 @@ struct Cell {
     estimate: Estimate,
 }
 
-/// More cells than this are not refined any further: the error then says what was reached.
+/// Refinement stops at this number of cells; the error then states what was reached.
 const MOST_CELLS: usize = 200_000;
 
-/// The sum of the integrals of `f(function, point)` over all parts: the cell that errs most is taken
-/// to a higher order or split into four, until the sum of all errors is small enough.
+/// The sum of the integrals of `f(function, point)` over all parts. The cell with the greatest
+/// error gets a rule of higher order or is split into four, until the sum of all errors is small enough.
 pub(crate) fn integrate(
     parts: impl IntoIterator<Item = Part>,
     tolerance: Tolerance,
@@ -95,7 +94,7 @@ pub(crate) fn integrate(
             cells.push(cell);
         });
     }
-    // Afresh, without what rounding has left in the running sums.
+    // Summed again, since the running sum has accumulated rounding errors.
     cells.into_iter().map(|cell| cell.estimate).sum()
 }
 
@@ -123,7 +122,7 @@ impl Cell {
     }
 }
 
-/// A triangle cut along the lines between the middles of its sides.
+/// A triangle split into four along the lines between the middles of its sides.
 pub(crate) fn quarters([a, b, c]: [DVec3; 3]) -> [[DVec3; 3]; 4] {
     let (ab, bc, ca) = ((a + b) * 0.5, (b + c) * 0.5, (c + a) * 0.5);
     [[a, ab, ca], [ab, b, bc], [ca, bc, c], [bc, ca, ab]]
@@ -155,8 +154,8 @@ mod tests {
 
     const UNIT: [DVec3; 3] = [DVec3::ZERO, DVec3::X, DVec3::Y];
 
-    /// ∫ |x − y| over the triangle (0,0), (1,0), (0,1) is 1/6: a crease that no split meets is what
-    /// the edge of a shadow is.
+    /// ∫ |x − y| over the triangle (0,0), (1,0), (0,1) is 1/6. Like the edge of
+    /// a shadow, the crease is not aligned with any split.
     #[test]
     fn a_crease_is_integrated_to_its_tolerance() {
         let part = Part { triangle: UNIT, function: 0, smooth: false };
@@ -170,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_reached_is_said() {
+    fn a_tolerance_that_cannot_be_reached_is_reported() {
         let part = Part { triangle: UNIT, function: 0, smooth: false };
         let jump = |_: usize, p: DVec3| f64::from(p.x > 1.0 / 3.0_f64.sqrt());
         let estimate = integrate([part], Tolerance { absolute: 1e-12, relative: 0.0 }, jump);

@@ -1,23 +1,23 @@
-//! A reference as it is stored, for others to be held against.
+//! The file format of a reference solution.
 
 use serde::{Deserialize, Serialize};
 
-use crate::dense::Solution;
-use crate::patches::Patches;
-use crate::paths::Problem;
+use crate::solutions::dense::Solution;
+use crate::solutions::patches::Patches;
+use crate::solutions::paths::Problem;
 
-/// A solution, what it is of, and how it was found.
+/// A solution with its problem and method.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Reference {
-    /// What it is of.
+    /// The problem that it solves.
     #[serde(flatten)]
     pub subject: Subject,
-    /// The errors over what is reflected, radiosity less emission, both as area-weighted root mean
-    /// squares over all patches and colours.
+    /// The error relative to the reflected radiosity (radiosity less emission), both as area-weighted root
+    /// mean squares over all patches and colours.
     pub relative_l2_error: f64,
     /// Radiosity of each patch: red, green, blue, W/m².
     pub radiosity: Vec<[f64; 3]>,
-    /// How far each may be off, W/m²: a bound if dense, a standard error of paths.
+    /// Error of each patch, W/m²: a bound for the dense method, a standard error for paths.
     pub error: Vec<[f64; 3]>,
 }
 
@@ -34,51 +34,51 @@ pub struct Subject {
     pub emitter_patch_size_m: f64,
     /// Cells along x, y and z.
     pub cells: [u32; 3],
-    /// Which problem it solves.
+    /// The problem.
     pub problem: Problem,
-    /// How.
+    /// The method.
     pub method: Method,
 }
 
-/// How a reference was found.
+/// The method by which a reference was computed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Method {
     /// Exact form factors, and their system solved to machine precision.
     Dense {
-        /// What the errors of a patch's form factors may add up to.
+        /// Bound of the sum of the errors of the form factors of a patch.
         tolerance: f64,
     },
     /// Paths from the emitters.
     Paths {
-        /// Of each round.
+        /// Paths in each round.
         paths_a_round: u32,
-        /// Independent of one another.
+        /// Number of independent rounds.
         rounds: u32,
-        /// Of the random numbers.
+        /// Seed of the random numbers.
         seed: u64,
     },
 }
 
 impl Reference {
-    /// A solution of a subject, on the patches that it is of.
+    /// The reference for a solution on the given patches.
     pub fn new(subject: Subject, patches: &Patches, solution: &Solution) -> Reference {
         let errors: Vec<[f64; 3]> = solution.error.iter().map(|c| c.to_array()).collect();
         let both = solution.radiosity.iter().map(|c| c.to_array()).zip(&errors);
-        let told = |(radiosity, error): ([f64; 3], &[f64; 3])| {
+        let shortened = |(radiosity, error): ([f64; 3], &[f64; 3])| {
             [0, 1, 2].map(|colour| rounded(radiosity[colour], error[colour]))
         };
         let whole = |error: &[f64; 3]| error.map(|error| rounded(error, error));
         Reference {
             subject,
             relative_l2_error: solution.relative_l2_error(patches),
-            radiosity: both.map(told).collect(),
+            radiosity: both.map(shortened).collect(),
             error: errors.iter().map(whole).collect(),
         }
     }
 }
 
-/// A number to some hundredths of its error, as a file need tell no more.
+/// A number rounded to about a hundredth of its error, to keep files short.
 fn rounded(number: f64, error: f64) -> f64 {
     let exponent = format!("{error:e}").split_once('e').and_then(|(_, e)| e.parse::<i32>().ok());
     match exponent {

@@ -1,5 +1,5 @@
-//! View factors that have a formula. Letters and numbers are those of Howell's catalogue of
-//! radiation heat transfer configuration factors, where it has them.
+//! Form factors with a closed form. Identifiers such as C-11 are those of Howell's catalogue of radiation
+//! heat transfer configuration factors.
 //!
 //! Lengths are positive and in any one unit, unless a function says otherwise.
 
@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 
 use libm::{atan, log};
 
-/// From where to where a rectangle reaches along an axis, the lesser number first.
+/// Extent of a rectangle along an axis: lower and upper bound.
 pub type Span = [f64; 2];
 
 /// C-11: between identical, directly opposed rectangles `a` × `b`, `c` apart.
@@ -19,8 +19,8 @@ pub fn opposed_rectangles(a: f64, b: f64, c: f64) -> f64 {
     2.0 / (PI * x * y) * (logarithm + arcs)
 }
 
-/// C-13: between parallel rectangles with parallel edges, `gap` apart, wherever they lie; each is
-/// given by its spans along x and along y.
+/// C-13: between parallel rectangles with parallel edges, `gap` apart, at any offset; each is
+/// given by its spans along x and y.
 pub fn parallel_rectangles(from: [Span; 2], to: [Span; 2], gap: f64) -> f64 {
     let g = |dx: f64, dy: f64| {
         let (p, q) = (dx.hypot(gap), dy.hypot(gap));
@@ -44,14 +44,14 @@ pub fn adjacent_rectangles(w: f64, h: f64, l: f64) -> f64 {
     (arcs + 0.25 * logarithm) / (PI * w)
 }
 
-/// Between perpendicular rectangles with parallel edges, wherever they lie: from one in the plane
+/// Between perpendicular rectangles with parallel edges, at any position: from one in the plane
 /// z = 0, given by its spans along x and y, to one in the plane x = 0, by its spans along z and y.
 /// Neither reaches across the other's plane.
 pub fn perpendicular_rectangles(from: [Span; 2], to: [Span; 2]) -> f64 {
     let g = |x: f64, z: f64, d: f64| {
         let r2 = x * x + z * z;
         let (r, d2) = (r2.sqrt(), d * d);
-        // Both terms vanish with what is under the arc and the logarithm.
+        // Both terms tend to 0 with the arguments of arc and logarithm.
         let arc = if r > 0.0 { d * r * atan(d / r) } else { 0.0 };
         let sum = r2 + d2;
         let logarithm = if sum > 0.0 { 0.25 * (r2 - d2) * log(sum) } else { 0.0 };
@@ -68,7 +68,7 @@ pub fn coaxial_discs(r1: f64, r2: f64, h: f64) -> f64 {
     0.5 * (x - (x * x - 4.0 * (r2 / r1).powi(2)).sqrt())
 }
 
-/// From an element to a parallel rectangle `a` × `b` at distance `c`, one of whose corners lies on
+/// From an element to a parallel rectangle `a` × `b` at distance `c`, one of whose corners is on
 /// the element's normal.
 pub fn element_to_parallel_rectangle(a: f64, b: f64, c: f64) -> f64 {
     let (a, b) = (a / c, b / c);
@@ -76,21 +76,21 @@ pub fn element_to_parallel_rectangle(a: f64, b: f64, c: f64) -> f64 {
     (half(a, b) + half(b, a)) / (2.0 * PI)
 }
 
-/// From an element to a perpendicular rectangle of height `a` and width `b` that stands on the
-/// element's plane with one end of its foot at distance `c` straight before the element.
+/// From an element to a perpendicular rectangle of height `a` and width `b`. Its lower edge is in the plane of
+/// the element; one end of that edge is at distance `c`, straight in front of the element.
 pub fn element_to_perpendicular_rectangle(a: f64, b: f64, c: f64) -> f64 {
     let (x, y) = (a / b, c / b);
     let r = x.hypot(y);
     (atan(1.0 / y) - y / r * atan(1.0 / r)) / (2.0 * PI)
 }
 
-/// From an element to a sphere of radius `r` whose centre is `d` away in the direction at whose angle
-/// to the element's normal the cosine is `cosine`; all of the sphere is above the element's plane.
+/// From an element to a sphere of radius `r` whose centre is at distance `d`; `cosine` is that of the angle
+/// between the element's normal and the direction to the centre. All of the sphere is above the element's plane.
 pub fn element_to_sphere(r: f64, d: f64, cosine: f64) -> f64 {
     cosine * (r / d).powi(2)
 }
 
-/// The sum over the ends of four spans, those of unlike ends subtracted.
+/// The sum over all combinations of the ends of four spans, with alternating signs.
 fn corners(term: impl Fn([usize; 4]) -> f64) -> f64 {
     let ends = (0..16).map(|n| [n & 1, n >> 1 & 1, n >> 2 & 1, n >> 3]);
     let sign = |at: &[usize; 4]| if at.iter().sum::<usize>() % 2 == 0 { 1.0 } else { -1.0 };
@@ -105,7 +105,7 @@ fn area([x, y]: [Span; 2]) -> f64 {
 mod tests {
     use super::*;
 
-    /// Each to the ten digits that are known.
+    /// Equal to ten digits.
     fn same(value: f64, exact: f64) {
         assert!((value - exact).abs() < 6e-11, "{value} {exact}");
     }
@@ -126,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn the_general_formulas_hold_the_special_ones() {
+    fn the_general_formulas_agree_with_the_special_ones() {
         let unit = [0.0, 1.0];
         same(
             parallel_rectangles([unit, unit], [unit, unit], 0.1),
