@@ -1,12 +1,12 @@
-//! Shares independent pieces of work out among threads of the host. Results come in the order of the
-//! pieces, so they do not depend on the number of threads.
+//! Distributes independent pieces of work over threads of the host. Results are in the order of the pieces, so
+//! they do not depend on the number of threads.
 //!
-//! Written with the standard library: rayon would add several seconds to a build for one function.
+//! Written with the standard library, since rayon would add several seconds to a build for one function.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::{iter, panic, thread};
 
-/// `work(0)` to `work(count - 1)`, on `threads` threads. Each thread takes the next number when it is free.
+/// Computes `work(0)` to `work(count - 1)` on `threads` threads. A thread takes the next number when it is free.
 ///
 /// # Panics
 /// If `work` does.

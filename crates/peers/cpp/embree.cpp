@@ -1,11 +1,11 @@
-// Casts through Embree the rays that it is told of, as often as it is told to.
+// Casts given rays with Embree, once for each order.
 //
-// Input, blanks between all numbers:
+// Input, numbers separated by blanks:
 //   polygons:   count, then for each the number of its corners and their coordinates
 //   directions: count, then unit vectors in a source's frame
 //   sources:    count, then for each its polygon, its origin, and its frame: tangent, bitangent, normal
-//   orders:     "WIDTH ROBUST" each: rays a call (1, 8 or 16) and whether the scene is robust (0 or 1)
-// Output: Embree's version, then a line an order: CPU seconds, hits, hits on the source's own polygon.
+//   orders:     "WIDTH ROBUST" each: rays per call (1, 8 or 16) and whether the scene is robust (0 or 1)
+// Output: Embree's version, then one line for each order: CPU seconds, hits, hits on the source's own polygon.
 
 #if !__has_include(<embree3/rtcore.h>)
 #error "Embree 3 is not installed"
@@ -27,7 +27,7 @@ struct Vector { float x, y, z; };
 struct Quad { unsigned corner[4]; };
 struct Source { unsigned polygon; Vector origin, frame[3]; };
 
-// Nearer hits than this count as the start itself: coordinates are single precision.
+// Nearer hits are ignored, since coordinates are in single precision.
 constexpr float NEAR = 1e-5f;
 
 std::vector<Vector> corners;
@@ -50,7 +50,7 @@ void read() {
         const unsigned first = corners.size(), n = count();
         corners.resize(first + n);
         for (unsigned i = 0; i < n; ++i) std::cin >> corners[first + i];
-        // A fan of quads; Embree takes a quad whose last two corners are one as a triangle.
+        // A fan of quads; for Embree a quad with two equal last corners is a triangle.
         for (unsigned i = 1; i + 1 < n; i += 2) {
             const unsigned last = std::min(i + 2, n - 1);
             quads.push_back({{first, first + i, first + i + 1, first + last}});
@@ -86,7 +86,7 @@ RTCScene build(RTCDevice device, bool robust) {
 
 struct Hits { size_t all = 0, own = 0; };
 
-// One ray or a packet of them; the types differ in name and in array or scalar only.
+// One ray or a packet of rays; the types differ only in their names and in array or scalar members.
 template <int N> struct Packet;
 template <> struct Packet<8> {
     alignas(64) RTCRayHit8 rays;

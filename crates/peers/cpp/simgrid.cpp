@@ -1,7 +1,7 @@
-// Runs an exchange of messages on a mesh of SimGrid's.
+// Runs an exchange of messages on a mesh in SimGrid.
 //
 // Arguments: options of SimGrid, such as --cfg=network/model:LV08.
-// Input, blanks between: columns and rows of hosts, rounds, bytes of a message, bandwidth in bytes a
+// Input, separated by blanks: columns and rows of hosts, rounds, bytes of a message, bandwidth in bytes per
 // second, latency of a message and of a hop in seconds; then for each host its four neighbours.
 // Output: version; then CPU seconds of the run, messages, virtual seconds.
 
@@ -24,7 +24,7 @@ namespace {
 int columns, rows, rounds;
 double bytes, bandwidth, latency, hop;
 
-// A mesh with a port a host and two links between neighbours, routed along the row first.
+// A mesh with one port for each host and two links between neighbours, routed along the row first.
 struct Mesh {
     sg4::NetZone *zone = sg4::create_full_zone("mesh");
     std::vector<sg4::Host *> hosts;

@@ -7,7 +7,7 @@ use std::process::{Command, Stdio};
 pub fn run(command: &mut Command, packages: &str) -> Result<String, String> {
     let name = command.get_program().to_string_lossy().into_owned();
     let output = command.stderr(Stdio::piped()).output().map_err(|error| {
-        format!("{name}: {error}\nOn Debian, what is needed comes with: apt install {packages}")
+        format!("{name}: {error}\nTo install it on Debian: apt install {packages}")
     })?;
     if output.status.success() {
         return Ok(String::from_utf8_lossy(&output.stdout).into_owned());

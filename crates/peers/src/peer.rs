@@ -26,9 +26,8 @@ impl Recipe {
         let Recipe { name, source, library, packages } = self;
         let own = std::env::current_exe().map_err(|error| format!("{name}: {error}"))?;
         let program = own.with_file_name(format!("peers-{name}"));
-        let missing = |why: &str| {
-            format!("{name}: {why}\nOn Debian, what is needed comes with: apt install {packages}")
-        };
+        let missing =
+            |why: &str| format!("{name}: {why}\nTo install it on Debian: apt install {packages}");
         let mut compiler = Command::new("c++")
             .args(["-std=c++17", "-O3", "-march=native", "-x", "c++", "-", "-o"])
             .arg(&program)

@@ -36,7 +36,6 @@ pub fn record(out: &Path, rounds: u16) -> Result<(), String> {
     readme += &profile::table(&profile);
     let host = serde_json::to_string_pretty(&host).map_err(|error| error.to_string())? + "\n";
     let rays: Vec<rays::Row> = casts.into_iter().flatten().collect();
-    std::fs::create_dir_all(out).map_err(|error| format!("{}: {error}", out.display()))?;
     for (name, text) in [
         ("README.md", readme),
         ("host.json", host),
@@ -47,7 +46,7 @@ pub fn record(out: &Path, rounds: u16) -> Result<(), String> {
         ("profile-kernel.csv", csv(&profile.kernel)?),
         ("cargo-bench.txt", benches),
     ] {
-        lab::write_file(&out.join(name), text.as_bytes()).map_err(|error| error.to_string())?;
+        write(out, name, &text)?;
     }
     Ok(())
 }

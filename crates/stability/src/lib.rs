@@ -17,7 +17,7 @@ mod page;
 mod runs;
 mod suite;
 
-pub use cases::{Case, Change, Exact, Expected, Listed, NaiveMethod, Overlay, Turn, case_schema};
+pub use cases::case_schema;
 pub use finding::{Finding, Quantity};
 pub use page::{csv, page, svg};
 pub use suite::{CaseResult, cases, check, is_case, run_case};

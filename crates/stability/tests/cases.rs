@@ -1,4 +1,4 @@
-//! Every case is right and its naive method is not, and the page that tells so is the committed one.
+//! Every case is right and its naive method is wrong; the committed page is up to date.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
 
@@ -11,12 +11,12 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// Cases name machines that lie in the project's folder, where they are tried.
+/// Cases name machines relative to the root of the project.
 fn enter_the_project() {
     std::env::set_current_dir(root()).unwrap();
 }
 
-/// Whether a naive method is as good as is right.
+/// Whether a naive method is right.
 fn naive_holds(finding: &Finding) -> bool {
     match (&finding.bound, finding.naive.as_ref().unwrap()) {
         (Quantity::Count(most), Quantity::Count(naive)) => naive.wrong <= most.wrong,
@@ -26,7 +26,7 @@ fn naive_holds(finding: &Finding) -> bool {
 }
 
 #[test]
-fn every_case_is_right_and_its_naive_method_is_not() {
+fn every_case_is_right_and_its_naive_method_is_wrong() {
     enter_the_project();
     let paths = cases(Path::new("experiments/stability")).unwrap();
     let results: Vec<_> = paths.iter().map(|path| run_case(path).unwrap()).collect();
@@ -34,7 +34,7 @@ fn every_case_is_right_and_its_naive_method_is_not() {
         assert!(result.holds(), "{}: {:#?}", result.name, result.findings);
         let naive = || result.findings.iter().filter(|finding| finding.naive.is_some());
         let expected = result.case.naive.is_some() || !result.case.naive_settings.is_empty();
-        assert_eq!(naive().count() > 0, expected, "{}: what is naive is right", result.name);
+        assert_eq!(naive().count() > 0, expected, "{}: the naive method is right", result.name);
         assert!(!naive().any(naive_holds), "{}: {:#?}", result.name, result.findings);
     }
     for (name, text) in [
@@ -47,9 +47,9 @@ fn every_case_is_right_and_its_naive_method_is_not() {
     }
 }
 
-/// Ten million rays from rooms turned by any angles and moved a thousand kilometres.
+/// The case `shared-edges` casts ten million rays in rotated rooms up to a thousand kilometres from the origin.
 #[test]
-fn leaks_are_looked_for_with_ten_million_rays() {
+fn leaks_are_tested_with_ten_million_rays() {
     let table = fs::read_to_string(root().join("results/stability/cases.csv")).unwrap();
     let line = table.lines().find(|line| line.starts_with("shared-edges,leaks,")).unwrap();
     let ours = line.split(',').nth(3).unwrap();

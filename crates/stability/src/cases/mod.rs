@@ -10,7 +10,4 @@ pub mod change;
 pub mod expected;
 pub mod naive_method;
 
-pub use case::{Case, Listed, Overlay, case_schema};
-pub use change::{Change, Turn};
-pub use expected::{Exact, Expected};
-pub use naive_method::NaiveMethod;
+pub use case::case_schema;
