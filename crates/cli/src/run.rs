@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
+use config::{Dimension, parse};
 use lab::{Endings, HostClock, On, Options, Plan, Preparing, Results, ShotFiles, Traces, Viewing};
-use multicomputer::quantity::{Dimension, QuantityError, parse};
 use traces::{Format, Sample};
 
 use crate::exit::{Exit, print};
@@ -84,7 +84,7 @@ fn viewing(text: &str) -> Result<Viewing, String> {
 }
 
 /// Parses a number of bytes with its unit.
-fn size(text: &str) -> Result<usize, QuantityError> {
+fn size(text: &str) -> Result<usize, String> {
     parse(text, Dimension::Bytes).map(|bytes| bytes as usize)
 }
 

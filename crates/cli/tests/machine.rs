@@ -84,11 +84,11 @@ fn bad_traces_and_networks_exit_with_2_and_leave_nothing() {
     for (arguments, message) in [
         (
             &["machine", "replay", "t.json"][..],
-            "t.json: [0].to: found 58; expected a node, 0 to 57",
+            "t.json:1: [0].to: found 58; expected a node, 0 to 57",
         ),
         (
             &["machine", "replay", "c.json"],
-            "c.json: [0].after: found a circle, \"1\" after \"1\"; expected messages that can be sent",
+            "c.json:1: [0].after: found a circle, \"1\" after \"1\"; expected messages that can be sent",
         ),
         (&["machine", "replay", "none.json"], "none.json: cannot be read"),
         (&["machine", "replay", "g.json", "--machine", "cray"], "unknown machine \"cray\""),

@@ -25,11 +25,11 @@ fn experiments_are_refused_with_place_value_and_expectation() {
     let good = r#""title": "t", "scene": "box", "processors": 1, "local_environments": 4"#;
     let walled = &format!(r#"{good}, "interfaces": "virtual_walls", "virtual_walls":"#);
     for (text, expected) in [
-        ("{", "experiments/x.json:1: EOF while parsing an object"),
-        ("[]", "experiments/x.json: found []; expected an object"),
+        ("{", "experiments/x.json:1:1: EOF while parsing an object"),
+        ("[]", "experiments/x.json: found a list; expected an object"),
         (
             "{\n\"title\": \"t\",\n\"title\": \"u\"}",
-            "experiments/x.json:3: the key \"title\" stands here twice",
+            "experiments/x.json:3:7: found the key \"title\" twice; expected it once",
         ),
         (r#"{"title": "t", "processors": 1}"#, "experiments/x.json: missing field `scene`"),
         (
@@ -68,8 +68,8 @@ fn experiments_are_refused_with_place_value_and_expectation() {
         ),
         (
             &format!("{{{good}, \"patch_size\": 0.3}}"),
-            "experiments/x.json:1: patch_size: found 0.3 without a unit; expected a length as \
-             text, such as \"0.30 m\"",
+            "experiments/x.json:1: patch_size: found 0.3 without a unit; expected a length \
+             such as \"0.30 m\"",
         ),
         (
             &format!("{{{good}, \"patch_size\": \"0.3\"}}"),
@@ -225,7 +225,7 @@ fn arguments_are_named_where_they_are_at_fault() {
         (
             "stop.patch_threshold=5",
             "--set stop.patch_threshold=5: stop.patch_threshold: found 5 without a unit; expected \
-             a fraction as text, such as \"10 %\"",
+             a fraction such as \"10 %\"",
         ),
         ("stop.patch_threshold=5 %", "nothing wrong"),
         ("mapping=[\"blocks\",\"cyclic\"]", "nothing wrong"),
@@ -245,7 +245,7 @@ fn files_that_an_experiment_names_are_refused_at_their_own_places() {
         (
             "scenes/box.json",
             "{\"obj\": \"box.obj\",\n\"patch_size\": 1}",
-            "scenes/box.json:2: patch_size: found 1 without a unit; expected a length as text, \
+            "scenes/box.json:2: patch_size: found 1 without a unit; expected a length \
              such as \"0.30 m\"",
         ),
         (

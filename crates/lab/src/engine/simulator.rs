@@ -5,6 +5,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 use std::sync::Arc;
 
+use config::{Fault, Place};
 use desim::Time;
 use multicomputer::Machine;
 use radiosity::{Operation, Rgb};
@@ -22,9 +23,6 @@ use crate::engine::start_up::StartUpFigures;
 use crate::experiment::display::DisplayFigures;
 use crate::experiment::fields::Experiment;
 use crate::experiment::node_memory;
-use crate::files::fault::Fault;
-use crate::files::find::Found;
-use crate::open::machine_file::MachineFile;
 
 /// What the programs run on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
@@ -42,37 +40,29 @@ pub fn operations() -> impl Iterator<Item = &'static str> {
     Operation::ALL.iter().map(|operation| operation.name())
 }
 
-/// Reads a machine description and makes sure that it prices every operation.
+/// Makes sure that a machine prices every operation, gives everything in its memory a size, and prices
+/// every step of its start-up, where it has these.
 ///
 /// # Errors
-/// What is wrong with the file, and where.
-pub fn load_machine(found: &Found) -> Result<MachineFile, Fault> {
-    let file = MachineFile::load(found)?;
-    let processor = &file.machine.processor;
+/// What is missing, and where; the file is left open.
+pub fn check_machine(machine: &Machine) -> Result<(), Fault> {
+    let processor = &machine.processor;
     let priced = |operation: &&Operation| processor.price(operation.name()).is_some();
-    match Operation::ALL.iter().find(|operation| !priced(operation)) {
-        None => sized(file, found),
-        Some(operation) => {
-            let message = format!("no price of \"{}\"; expected one of each", operation.name());
-            Err(Fault::of_file(found.path.display(), message))
-        }
-    }
-}
-
-/// Makes sure that a machine with memory gives everything a size, and one with a start-up every step a
-/// price.
-fn sized(file: MachineFile, found: &Found) -> Result<MachineFile, Fault> {
-    let machine = &file.machine;
+    let operation = Operation::ALL.iter().find(|operation| !priced(operation));
     let thing = machine.node_memory.as_ref().and_then(Thing::without_size);
     let step = machine.start_up.as_ref().and_then(StartUpStep::without_price);
-    let message = match (thing, step) {
-        (Some(thing), _) => format!("no size of \"{}\"; expected one of each", thing.name()),
-        (_, Some(step)) => {
-            format!("start_up.operations: no price of \"{}\"; expected one of each", step.name())
+    let missing = [
+        operation.map(|operation| ("processor.operations", "price", operation.name())),
+        thing.map(|thing| ("node_memory.sizes", "size", thing.name())),
+        step.map(|step| ("start_up.operations", "price", step.name())),
+    ];
+    match missing.into_iter().flatten().next() {
+        None => Ok(()),
+        Some((place, what, name)) => {
+            let message = format!("no {what} of \"{name}\"; expected one of each");
+            Err(Fault::at(Place::of(place), message))
         }
-        (None, None) => return Ok(file),
-    };
-    Err(Fault::of_file(found.path.display(), message))
+    }
 }
 
 /// The run of a problem at one point of an experiment; `on_shot` is called after every shot.

@@ -15,18 +15,11 @@ use crate::experiment::interfaces::{Interfaces, VirtualWalls};
 use crate::experiment::node_memory::NodeMemoryFields;
 use crate::experiment::refine::RefineFields;
 use crate::experiment::source_split::SplitFields;
-use crate::files::quantity::{Fraction, Length, Period, Triple};
-use crate::files::schema;
+use crate::files::counts::Triple;
+use crate::files::quantity::{Fraction, Length, Period};
 
 /// Fields of an experiment file in which a list is no sweep.
 pub const UNSWEPT: [&str; 4] = ["$schema", "title", "compare_with", "plots"];
-
-/// The schema of an experiment file.
-pub fn experiment_schema() -> Value {
-    let mut schema = schema::of::<Experiment>();
-    schema::sweepable(&mut schema, &UNSWEPT);
-    schema
-}
 
 /// An experiment: the runs of a scene on a machine, and what to draw of them.
 ///

@@ -8,6 +8,7 @@
 //! - [`accuracy`]: Field `accuracy`.
 //! - [`display`]: Field `display`, and what runs tell of the display.
 //! - [`node_memory`]: Field `node_memory`, and what runs tell of the memory.
+//! - [`schema`]: The JSON Schema of experiment files.
 //! - [`sweep`]: Lists of values make a product of runs.
 
 pub mod accuracy;
@@ -17,5 +18,6 @@ pub mod hemisphere;
 pub mod interfaces;
 pub mod node_memory;
 pub mod refine;
+pub mod schema;
 pub mod source_split;
 pub mod sweep;

@@ -1,11 +1,9 @@
 //! The rule of sweeps: where one value is expected, a list sweeps it.
 
+use config::{Document, Fault, Place, Step};
 use serde_json::Value;
 
 use crate::experiment::fields::UNSWEPT;
-use crate::files::document::Document;
-use crate::files::fault::Fault;
-use crate::files::place::{Place, Step};
 
 /// More runs than anyone means to start.
 const MOST_RUNS: usize = 100_000;

@@ -4,12 +4,11 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use config::{Document, Fault};
 use serde_json::Value;
 use virtwall::{KeptShots, Outcome, Problem};
 
 use crate::engine::simulator;
-use crate::files::document::Document;
-use crate::files::fault::Fault;
 use crate::open::problem;
 use crate::planning::plan::Plan;
 use crate::planning::preparing::Preparing;

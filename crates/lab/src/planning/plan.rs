@@ -4,6 +4,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use config::Place;
 use multicomputer::Machine;
 use serde_json::Value;
 use virtwall::Problem;
@@ -13,7 +14,6 @@ use crate::accuracy::tuned::Tuned;
 use crate::experiment::fields::{Experiment, Plot};
 use crate::experiment::sweep::Axis;
 use crate::files::digest::FileDigest;
-use crate::files::place::Place;
 use crate::open::settings::Settings;
 use crate::table::column::{Column, Input};
 use crate::table::columns;

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use config::{Document, Fault, Place, fill, read, refuse_unknown_keys, schema};
 use serde_json::Value;
 
 use crate::accuracy::answer::{self, Stored};
@@ -14,12 +15,8 @@ use crate::engine::simulator;
 use crate::experiment::fields::Experiment;
 use crate::experiment::sweep::{Point, Sweep};
 use crate::files::digest::FileDigest;
-use crate::files::document::Document;
-use crate::files::fault::Fault;
 use crate::files::file::{PLAIN, is_plain};
 use crate::files::find::{Found, Shelf, find, named_from};
-use crate::files::json;
-use crate::files::place::Place;
 use crate::host::host_clock::HostClock;
 use crate::host::program::program;
 use crate::open::machine_file::MachineFile;
@@ -57,7 +54,8 @@ impl Plan {
         for argument in arguments {
             document.set(argument)?;
         }
-        document.refuse_unknown_keys::<Experiment>()?;
+        let known = refuse_unknown_keys(&schema::of::<Experiment>(), &document.value);
+        known.map_err(|fault| document.locate(fault))?;
         let planner = Planner {
             path,
             folder: path.parent().unwrap_or(Path::new("")),
@@ -166,8 +164,9 @@ impl Planner<'_> {
 
     /// Reads and checks one point of the sweep, but for its scene.
     fn draft<'p>(&mut self, point: &'p Point) -> Result<Draft<'p>, Fault> {
-        let locate = |place| self.sweep.place_in_file(point, place);
-        let typed: Experiment = self.document.typed(&point.value, locate)?;
+        let typed: Experiment = read(&point.value).map_err(|fault| {
+            self.document.fault(&self.sweep.place_in_file(point, fault.place), fault.message)
+        })?;
         let machine = self.machine(point, &typed)?;
         suits(&typed, &self.machines[machine].machine)
             .map_err(|(field, message)| self.fault(point, field, message))?;
@@ -228,7 +227,9 @@ impl Planner<'_> {
         if let Some(loaded) = self.machines.iter().position(|m| m.path == found.path) {
             return Ok(loaded);
         }
-        let MachineFile { machine, digests, .. } = simulator::load_machine(&found)?;
+        let MachineFile { machine, digests, .. } = MachineFile::load(&found)?;
+        simulator::check_machine(&machine)
+            .map_err(|fault| Fault { file: found.path.display().to_string(), ..fault })?;
         self.machines.push(Equipment { machine, path: found.path, digests });
         Ok(self.machines.len() - 1)
     }
@@ -251,9 +252,9 @@ impl Planner<'_> {
         checked.map_err(|(field, message)| self.fault(point, field, message))?;
         let Some(name) = accuracy.sweep.as_ref() else { return Ok(()) };
         if !self.sweeps.contains_key(name) {
-            let read = read_sweep(self.folder, name)
+            let sweep = read_sweep(self.folder, name)
                 .map_err(|message| self.fault(point, "accuracy.sweep", message))?;
-            self.sweeps.insert(name.clone(), read);
+            self.sweeps.insert(name.clone(), sweep);
         }
         Ok(())
     }
@@ -369,7 +370,7 @@ impl Planner<'_> {
     /// The experiment file with every default filled in: a file that says the same.
     fn resolved(&self, first: &Experiment) -> Value {
         let mut resolved = self.document.value.clone();
-        json::fill(&mut resolved, serde_json::to_value(first).unwrap_or_default());
+        fill(&mut resolved, serde_json::to_value(first).unwrap_or_default());
         resolved
     }
 

@@ -5,7 +5,7 @@ use multicomputer::Machine;
 use crate::engine::knobs;
 use crate::engine::network;
 use crate::experiment::fields::Experiment;
-use crate::files::fault::WrongField;
+use crate::files::WrongField;
 
 /// More local environments can only be a slip.
 const MOST_ENVIRONMENTS: u32 = 65_536;

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use serde_json::Value;
 use viewer::ReportParts;
 
-use crate::experiment::fields::experiment_schema;
+use crate::experiment::schema::experiment_schema;
 use crate::results::console::{Line, lines};
 use crate::results::summary::Summary;
 use crate::table::cheapest;

@@ -1,17 +1,19 @@
-//! JSON Schemas of our files, so that editors complete them.
+//! The JSON Schema of experiment files: the rule of sweeps.
 
-use schemars::generate::SchemaSettings;
-use schemars::{JsonSchema, Schema};
+use config::schema;
 use serde_json::{Map, Value, json};
 
-/// The schema of a type, complete in itself.
-pub fn of<T: JsonSchema>() -> Value {
-    let settings = SchemaSettings::draft2020_12().with(|s| s.inline_subschemas = true);
-    Schema::to_value(settings.into_generator().into_root_schema_for::<T>())
+use super::fields::{Experiment, UNSWEPT};
+
+/// The schema of an experiment file.
+pub fn experiment_schema() -> Value {
+    let mut schema = schema::of::<Experiment>();
+    sweepable(&mut schema, &UNSWEPT);
+    schema
 }
 
 /// Lets every field that holds one value, but for those named, hold a list of such values too.
-pub fn sweepable(schema: &mut Value, but: &[&str]) {
+fn sweepable(schema: &mut Value, but: &[&str]) {
     let Some(Value::Object(fields)) = schema.get_mut("properties") else { return };
     for (_, schema) in fields.iter_mut().filter(|(name, _)| !but.contains(&name.as_str())) {
         if schema.get("properties").is_some() {
