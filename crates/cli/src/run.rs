@@ -107,7 +107,7 @@ enum FormatArgument {
 /// Runs the experiment; returns the table of its results.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let clock = HostClock::start();
-    let network = arguments.network.iter().map(|model| format!("network={model}"));
+    let network = arguments.network.iter().map(|model| format!("machine.network.model={model}"));
     let set: Vec<String> = arguments.set.iter().cloned().chain(network).collect();
     let threads = arguments.threads.count();
     let memory = arguments.memory.unwrap_or_else(lab::half_of_free_memory);

@@ -85,7 +85,9 @@ impl Document {
     /// A fault at a place of this document, with its line, or the argument that set it.
     pub fn fault(&self, place: &Place, message: impl Into<String>) -> Fault {
         let fault = Fault::at(place.clone(), message);
-        match self.arguments.iter().rev().find(|(set, _)| set.holds(place)) {
+        // An argument around the place, or inside it, unless that is the whole document.
+        let at = |set: &Place| set.holds(place) || !place.0.is_empty() && place.holds(set);
+        match self.arguments.iter().rev().find(|(set, _)| at(set)) {
             Some((_, argument)) => Fault { file: format!("--set {argument}"), ..fault },
             None => {
                 Fault { file: self.file.clone(), line: json::line_of(&self.text, place), ..fault }
@@ -129,6 +131,8 @@ mod tests {
         assert_eq!(document.value, json!({ "a": { "b": "soon" } }));
         let fault = document.locate(Fault::at(place, "wrong"));
         assert_eq!(fault.to_string(), "--set a.b=soon: a.b: wrong");
+        let fault = document.fault(&Place::of("a"), "wrong");
+        assert_eq!(fault.to_string(), "--set a.b=soon: a: wrong");
         assert!(document.set("a.b.c=1").is_err() && document.set("=1").is_err());
     }
 }

@@ -2,7 +2,7 @@
 
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema};
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 /// The schema of a type, complete in itself.
 pub fn of<T: JsonSchema>() -> Value {
@@ -15,13 +15,18 @@ pub fn of<T: JsonSchema>() -> Value {
 /// # Errors
 /// The fields that there are, if the schema lists them and this one is not among them.
 pub fn field<'a>(schema: &'a Value, key: &str) -> Result<Option<&'a Value>, Vec<String>> {
-    let listed = alternative(schema, "properties").and_then(Value::as_object);
+    let listed = fields(schema);
     let of_any = || alternative(schema, "additionalProperties").filter(|any| any.is_object());
     match (listed, listed.and_then(|fields| fields.get(key)).or_else(of_any)) {
         (_, Some(schema)) => Ok(Some(schema)),
         (None, None) => Ok(None),
         (Some(fields), None) => Err(fields.keys().cloned().collect()),
     }
+}
+
+/// The fields that an object's schema lists.
+pub fn fields(schema: &Value) -> Option<&Map<String, Value>> {
+    alternative(schema, "properties")?.as_object()
 }
 
 /// The schema of a list's items.

@@ -35,8 +35,8 @@ fn experiments_are_refused_with_place_value_and_expectation() {
         (
             &format!("{{{good},\n\"processor\": 2}}"),
             "experiments/x.json:2: processor: unknown field \"processor\", did you mean \
-             \"processors\"? (there are: $schema, title, scene, machine, network, network_tolerance, \
-             node_memory, display, count_start_up, processors, local_environments, cut, cells, patch_size, \
+             \"processors\"? (there are: $schema, title, scene, machine, network_tolerance, \
+             count_start_up, processors, local_environments, cut, cells, patch_size, \
              emitter_patch_size, refine, hemisphere, interfaces, virtual_walls, mask_bits, source_split, overshoot, \
              ambient, reference, error_causes, accuracy, selection, ties, order, stop, merge_masks, mapping, radiosity_updates, \
              reuse_shots, seed, compare_with, plots)",
@@ -62,9 +62,41 @@ fn experiments_are_refused_with_place_value_and_expectation() {
              `delta_radiosity`",
         ),
         (
-            &format!("{{{good},\n \"node_memory\": {{\"available\": \"8 MiB\"}}}}"),
-            "experiments/x.json:2: node_memory: the memory of \"paragon-xps\" is not modelled; \
-             expected a machine whose file has \"node_memory\"",
+            &format!(
+                "{{{good},\n \"machine\": {{\"node_memory\": {{\"installed\": \"8 MiB\"}}}}}}"
+            ),
+            "experiments/x.json:2: machine.node_memory: missing field `system`",
+        ),
+        (
+            &format!(
+                "{{{good}, \"machine\": {{\n\"processor\": {{\n\"clock\": [\"50 MHz\",\n\"5\"]}}}}}}"
+            ),
+            "experiments/x.json:4: machine.processor.clock[1]: found \"5\" without a unit; expected \
+             a frequency such as \"50 MHz\"",
+        ),
+        (
+            &format!("{{{good}, \"machine\": {{\"mesh\": {{\n\"widht\": 5}}}}}}"),
+            "experiments/x.json:2: machine.mesh.widht: unknown field \"widht\", did you mean \
+             \"width\"? (there are: width, height, hop_time)",
+        ),
+        (
+            &format!("{{{good}, \"machine\": [\"paragon-xps\",\n{{\"mesh\": {{\"widht\": 5}}}}]}}"),
+            "experiments/x.json:2: machine[1].mesh.widht: unknown field \"widht\", did you mean \
+             \"width\"? (there are: width, height, hop_time)",
+        ),
+        (
+            &format!("{{{good},\n\"machine\": {{\"compute_nodes\": [56, 63]}}}}"),
+            "experiments/x.json:2: machine.mesh: found 4 × 16 = 64 places; expected at least 65, \
+             for 63 compute nodes and 2 service nodes",
+        ),
+        (
+            &format!("{{{good},\n\"machine\": {{\"extends\": \"cm-5\"}}}}"),
+            "experiments/x.json:2: machine.extends: unknown machine \"cm-5\" (there are: paragon-xps)",
+        ),
+        (
+            &format!("{{{good}, \"machine\": 5}}"),
+            "experiments/x.json:1: machine: found 5; expected the name of a machine, or an object \
+             that \"extends\" one",
         ),
         (
             &format!("{{{good}, \"patch_size\": 0.3}}"),

@@ -23,7 +23,10 @@ pub use bench::{
     exchange, fluid_bound, hot_spot, ping_pong, replay, trace_schema,
 };
 pub use display::{Display, DisplayAccount, Ethernet, Socket, WhenFull};
-pub use machine::{Machine, MachineError, Multicomputer, Published, machine_schema};
+pub use machine::{
+    Machine, MachineError, Multicomputer, Published, machine_changes_schema, machine_schema,
+    with_source,
+};
 pub use network::{
     Arrival, AutoResult, Channel, ChannelUse, ContentionFree, Deadlock, Delivery, Flit, Formula,
     Hop, Ideal, Link, LinkParameters, LogGp, LogGpParameters, Message, ModelChoice, Network,

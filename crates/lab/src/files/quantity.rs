@@ -44,20 +44,6 @@ impl Measure for PeriodKind {
     }
 }
 
-/// A size of memory, from a byte on.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SizeKind;
-
-impl Measure for SizeKind {
-    const NAME: &'static str = "a size";
-    const DIMENSION: Dimension = Dimension::Bytes;
-    const EXAMPLE: &'static str = "8 MiB";
-    const RANGE: &'static str = "from 1 B to 1 GB";
-    fn allows(value: f64) -> bool {
-        (1.0..=1e9).contains(&value)
-    }
-}
-
 /// An absorption of light a metre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AbsorptionKind;
@@ -72,20 +58,6 @@ impl Measure for AbsorptionKind {
     }
 }
 
-/// Bytes a second.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RateKind;
-
-impl Measure for RateKind {
-    const NAME: &'static str = "a bandwidth";
-    const DIMENSION: Dimension = Dimension::Bandwidth;
-    const EXAMPLE: &'static str = "10 Mbit/s";
-    const RANGE: &'static str = "from 1 B/s to 1000 GB/s";
-    fn allows(value: f64) -> bool {
-        (1.0..=1e12).contains(&value)
-    }
-}
-
 /// A length, in metres.
 pub type Length = Quantity<LengthKind>;
 /// A share, from 0 to 1.
@@ -94,7 +66,3 @@ pub type Fraction = Quantity<FractionKind>;
 pub type Period = Quantity<PeriodKind>;
 /// An absorption of light, 1/m.
 pub type Absorption = Quantity<AbsorptionKind>;
-/// A size of memory, in bytes.
-pub type Size = Quantity<SizeKind>;
-/// A bandwidth, in bytes a second.
-pub type Rate = Quantity<RateKind>;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use config::{Document, Fault, Place, merge, read_text};
-use multicomputer::Machine;
+use multicomputer::{Machine, with_source};
 use serde_json::Value;
 
 use crate::files::digest::FileDigest;
@@ -52,6 +52,19 @@ impl MachineFile {
         }
         let machine = Machine::of(&document.value).map_err(|fault| document.locate(fault))?;
         Ok(MachineFile { machine, value: document.value, digests })
+    }
+}
+
+impl MachineFile {
+    /// The machine with an experiment's changes.
+    ///
+    /// # Errors
+    /// What is wrong, and where in the machine; the file is left open.
+    pub fn changed(&self, mut changes: Value) -> Result<Machine, Fault> {
+        with_source(&mut changes, "the experiment");
+        let mut value = self.value.clone();
+        merge(&mut value, changes);
+        Machine::of(&value)
     }
 }
 

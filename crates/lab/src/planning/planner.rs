@@ -13,6 +13,7 @@ use crate::accuracy::tuned::Tuned;
 use crate::accuracy::tuner::tune;
 use crate::engine::simulator;
 use crate::experiment::fields::Experiment;
+use crate::experiment::machine::open_up;
 use crate::experiment::sweep::{Point, Sweep};
 use crate::files::digest::FileDigest;
 use crate::files::file::{PLAIN, is_plain};
@@ -52,6 +53,9 @@ impl Plan {
         preparing: &Preparing,
     ) -> Result<Plan, Fault> {
         for argument in arguments {
+            if argument.starts_with("machine.") {
+                open_up(&mut document.value);
+            }
             document.set(argument)?;
         }
         let known = refuse_unknown_keys(&schema::of::<Experiment>(), &document.value);
@@ -64,6 +68,8 @@ impl Plan {
             preparing,
             scenes: Vec::new(),
             machines: Vec::new(),
+            machine_of: BTreeMap::new(),
+            machine_files: BTreeMap::new(),
             references: BTreeMap::new(),
             stored: Vec::new(),
             sweeps: BTreeMap::new(),
@@ -81,6 +87,10 @@ struct Planner<'a> {
     preparing: &'a Preparing<'a>,
     scenes: Vec<Found>,
     machines: Vec<Equipment>,
+    /// Which of those, by what the experiment says of it.
+    machine_of: BTreeMap<String, usize>,
+    /// Machine files, by path.
+    machine_files: BTreeMap<PathBuf, MachineFile>,
     /// Which of those stored, by file and scene.
     references: BTreeMap<(PathBuf, usize), usize>,
     stored: Vec<Stored>,
@@ -220,17 +230,42 @@ impl Planner<'_> {
         self.document.fault(&self.sweep.place_in_file(point, Place::of(field)), message)
     }
 
-    /// The machine of this point, loaded once.
+    /// The machine of this point: its file is read once, and each change of it made once.
     fn machine(&mut self, point: &Point, typed: &Experiment) -> Result<usize, Fault> {
-        let found = find(self.folder, Shelf::Machines, &typed.machine)
-            .map_err(|message| self.fault(point, "machine", message))?;
-        if let Some(loaded) = self.machines.iter().position(|m| m.path == found.path) {
-            return Ok(loaded);
+        let choice = &typed.machine;
+        let key = serde_json::to_string(choice).unwrap_or_default();
+        if let Some(&known) = self.machine_of.get(&key) {
+            return Ok(known);
         }
-        let MachineFile { machine, digests, .. } = MachineFile::load(&found)?;
-        simulator::check_machine(&machine)
-            .map_err(|fault| Fault { file: found.path.display().to_string(), ..fault })?;
-        self.machines.push(Equipment { machine, path: found.path, digests });
+        let changes = choice.changes();
+        let field = if changes.is_some() { "machine.extends" } else { "machine" };
+        let found = find(self.folder, Shelf::Machines, choice.name())
+            .map_err(|message| self.fault(point, field, message))?;
+        let file = match self.machine_files.get(&found.path) {
+            Some(file) => file,
+            None => {
+                let file = MachineFile::load(&found)?;
+                self.machine_files.entry(found.path.clone()).or_insert(file)
+            }
+        };
+        let digests = file.digests.clone();
+        let (machine, at) = match changes {
+            None => (Ok(file.machine.clone()), None),
+            Some(changes) => (file.changed(changes), Some(choice)),
+        };
+        let checked = machine.and_then(|machine| {
+            simulator::check_machine(&machine)?;
+            Ok(machine)
+        });
+        let machine = checked.map_err(|fault| match at {
+            None => Fault { file: found.path.display().to_string(), ..fault },
+            Some(choice) => {
+                let place = self.sweep.place_in_file(point, choice.place(&fault.place));
+                self.document.fault(&place, fault.message)
+            }
+        })?;
+        self.machines.push(Equipment { machine, digests });
+        self.machine_of.insert(key, self.machines.len() - 1);
         Ok(self.machines.len() - 1)
     }
 

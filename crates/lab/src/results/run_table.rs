@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::experiment::fields::Experiment;
+use crate::experiment::sweep::in_words;
 use crate::planning::plan::{Plan, Run, all_else};
 use crate::results::networks;
 use crate::run::runner::{Ending, Endings};
@@ -43,7 +44,7 @@ pub fn run_table(plan: &Plan, endings: &Endings) -> Table {
         };
         let cell = |(name, column): (&String, &Option<&Column>)| match column {
             Some(column) => row.cell(column),
-            None => plan.swept(run, name).map_or(String::new(), columns::cell),
+            None => plan.swept(run, name).map_or(String::new(), in_words),
         };
         header.iter().zip(&cells).map(cell).collect()
     };
