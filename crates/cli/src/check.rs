@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use lab::Fault;
+use config::Fault;
 
 use crate::exit::Exit;
 

@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::io::{self, Write};
 
-use lab::Fault;
+use config::Fault;
 
 /// How a command failed.
 pub struct Exit {

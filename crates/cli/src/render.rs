@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
+use config::{Dimension, parse};
 use desim::Time;
 use lab::{Light, Stage, Which};
-use multicomputer::quantity::{Dimension, QuantityError, parse};
 use radiosity::glam::DVec3;
 use radiosity::{
     Camera, Exposure, LARGEST_PICTURE, Mesh, Picture, PictureOptions, Rgb, Shading, Tone, render,
@@ -306,12 +306,12 @@ fn png(text: &str) -> Result<PathBuf, String> {
     if is_png { Ok(path) } else { Err("expected a file name that ends in .png".to_owned()) }
 }
 
-fn instant(text: &str) -> Result<Time, QuantityError> {
+fn instant(text: &str) -> Result<Time, String> {
     let seconds = parse(text, Dimension::Time)?;
     Ok(Time::ZERO + desim::Duration::from_seconds_f64(seconds))
 }
 
-fn share(text: &str) -> Result<f64, QuantityError> {
+fn share(text: &str) -> Result<f64, String> {
     parse(text, Dimension::Fraction)
 }
 

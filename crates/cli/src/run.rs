@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
+use config::{Dimension, parse};
 use lab::{Endings, HostClock, On, Options, Plan, Preparing, Results, ShotFiles, Traces, Viewing};
-use multicomputer::quantity::{Dimension, QuantityError, parse};
 use traces::{Format, Sample};
 
 use crate::exit::{Exit, print};
@@ -84,7 +84,7 @@ fn viewing(text: &str) -> Result<Viewing, String> {
 }
 
 /// Parses a number of bytes with its unit.
-fn size(text: &str) -> Result<usize, QuantityError> {
+fn size(text: &str) -> Result<usize, String> {
     parse(text, Dimension::Bytes).map(|bytes| bytes as usize)
 }
 
@@ -107,7 +107,7 @@ enum FormatArgument {
 /// Runs the experiment; returns the table of its results.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let clock = HostClock::start();
-    let network = arguments.network.iter().map(|model| format!("network={model}"));
+    let network = arguments.network.iter().map(|model| format!("machine.network.model={model}"));
     let set: Vec<String> = arguments.set.iter().cloned().chain(network).collect();
     let threads = arguments.threads.count();
     let memory = arguments.memory.unwrap_or_else(lab::half_of_free_memory);

@@ -84,11 +84,11 @@ fn bad_traces_and_networks_exit_with_2_and_leave_nothing() {
     for (arguments, message) in [
         (
             &["machine", "replay", "t.json"][..],
-            "t.json: [0].to: found 58; expected a node, 0 to 57",
+            "t.json:1: [0].to: found 58; expected a node, 0 to 57",
         ),
         (
             &["machine", "replay", "c.json"],
-            "c.json: [0].after: found a circle, \"1\" after \"1\"; expected messages that can be sent",
+            "c.json:1: [0].after: found a circle, \"1\" after \"1\"; expected messages that can be sent",
         ),
         (&["machine", "replay", "none.json"], "none.json: cannot be read"),
         (&["machine", "replay", "g.json", "--machine", "cray"], "unknown machine \"cray\""),
@@ -99,11 +99,11 @@ fn bad_traces_and_networks_exit_with_2_and_leave_nothing() {
         ),
         (
             &["run", "experiments/x.json", "--network", "pigeon"],
-            "--set network=pigeon: network: unknown variant `pigeon`",
+            "--set machine.network.model=pigeon: machine.network.model: unknown variant `pigeon`",
         ),
         (
             &["run", "experiments/x.json", "--set", "machine=no-links", "--network", "wormhole"],
-            "has no \"network.links\", which its network needs as \"wormhole\"",
+            "--set machine.network.model=wormhole: machine.network: missing field `links`",
         ),
     ] {
         let (code, _, stderr) = virtwall(&project.path(""), arguments);
@@ -131,7 +131,7 @@ fn cell<'a>(row: &'a [(String, String)], name: &str) -> &'a str {
 
 #[test]
 fn an_experiment_runs_on_every_network_and_says_what_differs() {
-    let networks = r#""network": ["ideal", "loggp", "wormhole", "flit", "auto"], "title""#;
+    let networks = r#""machine": { "network": { "model": ["ideal", "loggp", "wormhole", "flit", "auto"] } }, "title""#;
     let text = SWEEP.replace("[64, 256]", "64").replace("\"title\"", networks);
     let project = Project::new(&text);
     let (code, said, stderr) = virtwall(&project.path(""), &["run", "experiments/x.json"]);
@@ -140,7 +140,7 @@ fn an_experiment_runs_on_every_network_and_says_what_differs() {
     let rows = rows(&project);
     assert_eq!(rows.len(), 15);
     for row in &rows {
-        let (asked, used) = (cell(row, "network"), cell(row, "network_used"));
+        let (asked, used) = (cell(row, "machine.network.model"), cell(row, "network_used"));
         let difference: f64 =
             cell(row, "difference_from_finest").trim_end_matches(" %").parse().unwrap();
         match asked {
@@ -245,8 +245,8 @@ fn what_the_display_and_the_start_up_do_stands_in_the_results() {
         "{waited} {reading} {all}"
     );
 
-    let drowned = ["machine=paragon-display", r#"display.update_time="1 s""#];
-    let drops = [r#"display.when_full="drop_newest""#, r#"display.service_buffers="1 B""#];
+    let drowned = ["machine=paragon-display", r#"machine.display.consumer.update_time="1 s""#];
+    let drops = ["machine.display.when_full=drop_newest", "machine.display.service_buffers=1 B"];
     assert_eq!(run(&[&drowned[..], &drops].concat()).0, 0);
     assert!(rows(&project).iter().any(|row| number(row, "updates_dropped") > 0.0));
 
@@ -260,13 +260,14 @@ fn what_the_display_and_the_start_up_do_stands_in_the_results() {
         assert_eq!(code, 2);
         assert!(stderr.contains(expected), "{stderr}");
     };
-    lacks(r#"display.update_time="1 s""#, "expected a machine whose file has \"display\"");
+    lacks("machine.display.window=1 B", "machine.display: missing field `service`");
     lacks("count_start_up=true", "expected a machine whose file has \"start_up\"");
 }
 
 #[test]
 fn what_paging_does_stands_in_the_results() {
-    let memory = r#""machine": "gp16", "node_memory": { "available": ["8.5 MiB", "1.5 MiB"] }"#;
+    let memory =
+        r#""machine": { "extends": "gp16", "node_memory": { "installed": ["16 MiB", "9 MiB"] } }"#;
     let text = SWEEP
         .replace("[64, 256]", "64")
         .replace("[1, 2, 4]", "4")

@@ -30,11 +30,9 @@ mod run;
 mod table;
 
 pub use engine::simulator::{Light, On};
-pub use experiment::fields::{Plot, experiment_schema};
-pub use files::document::Document;
-pub use files::fault::Fault;
-pub use files::file::{read_text, write as write_file};
-pub use files::place::Place;
+pub use experiment::fields::Plot;
+pub use experiment::schema::experiment_schema;
+pub use files::file::write as write_file;
 pub use host::host_clock::HostClock;
 pub use host::host_memory::half_of_free_memory;
 pub use inspect::check::check;

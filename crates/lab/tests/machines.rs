@@ -70,9 +70,9 @@ fn extensions_that_lead_nowhere_are_refused() {
         message.replace(&format!("{}/", folder.path().display()), "")
     };
     let circle = message(r#"{ "extends": "m.json" }"#);
-    assert!(circle.ends_with("m.json: extends: found \"m.json\"; expected an end of the row"));
+    assert!(circle.ends_with("m.json:1: extends: found \"m.json\"; expected an end of the row"));
     let unknown = message(r#"{ "extends": "n.json" }"#);
-    assert!(unknown.starts_with("m.json: extends: \"n.json\": no such file"), "{unknown}");
+    assert!(unknown.starts_with("m.json:1: extends: \"n.json\": no such file"), "{unknown}");
     let base = machines().join("paragon-xps.json");
     let wrong = message(&format!(
         r#"{{ "extends": "{}", "processor": {{ "clock": {{ "value": "50" }} }} }}"#,
@@ -80,7 +80,7 @@ fn extensions_that_lead_nowhere_are_refused() {
     ));
     assert_eq!(
         wrong,
-        "m.json: processor.clock.value: found \"50\" without a unit; expected a frequency such as \
+        "m.json:1: processor.clock.value: found \"50\" without a unit; expected a frequency such as \
          \"50 MHz\""
     );
     let less = message(&format!(r#"{{ "extends": "{}", "mesh": null }}"#, base.display()));

@@ -25,18 +25,18 @@ fn experiments_are_refused_with_place_value_and_expectation() {
     let good = r#""title": "t", "scene": "box", "processors": 1, "local_environments": 4"#;
     let walled = &format!(r#"{good}, "interfaces": "virtual_walls", "virtual_walls":"#);
     for (text, expected) in [
-        ("{", "experiments/x.json:1: EOF while parsing an object"),
-        ("[]", "experiments/x.json: found []; expected an object"),
+        ("{", "experiments/x.json:1:1: EOF while parsing an object"),
+        ("[]", "experiments/x.json: found a list; expected an object"),
         (
             "{\n\"title\": \"t\",\n\"title\": \"u\"}",
-            "experiments/x.json:3: the key \"title\" stands here twice",
+            "experiments/x.json:3:7: found the key \"title\" twice; expected it once",
         ),
         (r#"{"title": "t", "processors": 1}"#, "experiments/x.json: missing field `scene`"),
         (
             &format!("{{{good},\n\"processor\": 2}}"),
             "experiments/x.json:2: processor: unknown field \"processor\", did you mean \
-             \"processors\"? (there are: $schema, title, scene, machine, network, network_tolerance, \
-             node_memory, display, count_start_up, processors, local_environments, cut, cells, patch_size, \
+             \"processors\"? (there are: $schema, title, scene, machine, network_tolerance, \
+             count_start_up, processors, local_environments, cut, cells, patch_size, \
              emitter_patch_size, refine, hemisphere, interfaces, virtual_walls, mask_bits, source_split, overshoot, \
              ambient, reference, error_causes, accuracy, selection, ties, order, stop, merge_masks, mapping, radiosity_updates, \
              reuse_shots, seed, compare_with, plots)",
@@ -62,14 +62,46 @@ fn experiments_are_refused_with_place_value_and_expectation() {
              `delta_radiosity`",
         ),
         (
-            &format!("{{{good},\n \"node_memory\": {{\"available\": \"8 MiB\"}}}}"),
-            "experiments/x.json:2: node_memory: the memory of \"paragon-xps\" is not modelled; \
-             expected a machine whose file has \"node_memory\"",
+            &format!(
+                "{{{good},\n \"machine\": {{\"node_memory\": {{\"installed\": \"8 MiB\"}}}}}}"
+            ),
+            "experiments/x.json:2: machine.node_memory: missing field `system`",
+        ),
+        (
+            &format!(
+                "{{{good}, \"machine\": {{\n\"processor\": {{\n\"clock\": [\"50 MHz\",\n\"5\"]}}}}}}"
+            ),
+            "experiments/x.json:4: machine.processor.clock[1]: found \"5\" without a unit; expected \
+             a frequency such as \"50 MHz\"",
+        ),
+        (
+            &format!("{{{good}, \"machine\": {{\"mesh\": {{\n\"widht\": 5}}}}}}"),
+            "experiments/x.json:2: machine.mesh.widht: unknown field \"widht\", did you mean \
+             \"width\"? (there are: width, height, hop_time)",
+        ),
+        (
+            &format!("{{{good}, \"machine\": [\"paragon-xps\",\n{{\"mesh\": {{\"widht\": 5}}}}]}}"),
+            "experiments/x.json:2: machine[1].mesh.widht: unknown field \"widht\", did you mean \
+             \"width\"? (there are: width, height, hop_time)",
+        ),
+        (
+            &format!("{{{good},\n\"machine\": {{\"compute_nodes\": [56, 63]}}}}"),
+            "experiments/x.json:2: machine.mesh: found 4 × 16 = 64 places; expected at least 65, \
+             for 63 compute nodes and 2 service nodes",
+        ),
+        (
+            &format!("{{{good},\n\"machine\": {{\"extends\": \"cm-5\"}}}}"),
+            "experiments/x.json:2: machine.extends: unknown machine \"cm-5\" (there are: paragon-xps)",
+        ),
+        (
+            &format!("{{{good}, \"machine\": 5}}"),
+            "experiments/x.json:1: machine: found 5; expected the name of a machine, or an object \
+             that \"extends\" one",
         ),
         (
             &format!("{{{good}, \"patch_size\": 0.3}}"),
-            "experiments/x.json:1: patch_size: found 0.3 without a unit; expected a length as \
-             text, such as \"0.30 m\"",
+            "experiments/x.json:1: patch_size: found 0.3 without a unit; expected a length \
+             such as \"0.30 m\"",
         ),
         (
             &format!("{{{good}, \"patch_size\": \"0.3\"}}"),
@@ -225,7 +257,7 @@ fn arguments_are_named_where_they_are_at_fault() {
         (
             "stop.patch_threshold=5",
             "--set stop.patch_threshold=5: stop.patch_threshold: found 5 without a unit; expected \
-             a fraction as text, such as \"10 %\"",
+             a fraction such as \"10 %\"",
         ),
         ("stop.patch_threshold=5 %", "nothing wrong"),
         ("mapping=[\"blocks\",\"cyclic\"]", "nothing wrong"),
@@ -245,7 +277,7 @@ fn files_that_an_experiment_names_are_refused_at_their_own_places() {
         (
             "scenes/box.json",
             "{\"obj\": \"box.obj\",\n\"patch_size\": 1}",
-            "scenes/box.json:2: patch_size: found 1 without a unit; expected a length as text, \
+            "scenes/box.json:2: patch_size: found 1 without a unit; expected a length \
              such as \"0.30 m\"",
         ),
         (

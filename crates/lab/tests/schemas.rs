@@ -50,8 +50,6 @@ fn every_field_is_described_and_every_leaf_can_be_swept() {
         [
             "$schema",
             "title",
-            "node_memory",
-            "display",
             "refine",
             "hemisphere",
             "virtual_walls",

@@ -9,22 +9,24 @@
 mod bench;
 /// From the service node to a display: frames, Ethernet, back pressure.
 mod display;
-/// Values of a file: units, provenance, faults.
-mod file;
 /// The machine: its file, checked, and running.
 mod machine;
 /// When messages arrive: topologies and the ladder of network models.
 mod network;
 /// A node: processor, caches, memory, message layer, and where its time goes.
 mod node;
+/// Numbers of a machine file, with their provenance.
+mod sourced;
 
 pub use bench::{
     KernelError, Load, Measured, Pattern, ReplayDeadlock, ReplayedMessage, Trace, TraceMessage,
     exchange, fluid_bound, hot_spot, ping_pong, replay, trace_schema,
 };
 pub use display::{Display, DisplayAccount, Ethernet, Socket, WhenFull};
-pub use file::{MachineFault, quantity};
-pub use machine::{Machine, MachineError, Multicomputer, Published, machine_schema};
+pub use machine::{
+    Machine, MachineError, Multicomputer, Published, machine_changes_schema, machine_schema,
+    with_source,
+};
 pub use network::{
     Arrival, AutoResult, Channel, ChannelUse, ContentionFree, Deadlock, Delivery, Flit, Formula,
     Hop, Ideal, Link, LinkParameters, LogGp, LogGpParameters, Message, ModelChoice, Network,

@@ -211,7 +211,7 @@ fn without(object: &str, key: &str) -> Value {
 fn message(file: &Value) -> String {
     match read(file).map(|machine| machine.title) {
         Err(MachineError::File(mut fault)) => {
-            fault.line_and_column = None;
+            (fault.line, fault.column) = (None, None);
             fault.to_string()
         }
         other => panic!("expected a fault of the file, found {other:?}"),
@@ -227,7 +227,7 @@ fn faults_name_place_value_and_what_was_expected() {
         ),
         (
             with("/processor/clock/value", json!(50)),
-            r#"m.json: processor.clock.value: invalid type: integer `50`, expected a frequency such as "50 MHz""#,
+            r#"m.json: processor.clock.value: found 50 without a unit; expected a frequency such as "50 MHz""#,
         ),
         (
             with("/processor/operations/ray/value", json!("-3 cycles")),
@@ -259,7 +259,7 @@ fn faults_name_place_value_and_what_was_expected() {
         ),
         (
             with("/compute_nodes/value", json!(0)),
-            "m.json: compute_nodes.value: invalid value: integer `0`, expected a nonzero u16",
+            "m.json: compute_nodes.value: invalid value: integer `0`, expected a whole number, 1 to 65535",
         ),
         (
             with("/compute_nodes/value", json!(63)),
@@ -306,7 +306,7 @@ fn faults_name_place_value_and_what_was_expected() {
         ),
         (
             with("/processor/clock", json!({ "value": "50 MHz", "provenanse": "published" })),
-            "m.json: processor.clock.provenanse: unknown field `provenanse`, expected one of `value`, `provenance`, `source`",
+            r#"m.json: processor.clock.provenanse: unknown field "provenanse", did you mean "provenance"? (there are: value, provenance, source)"#,
         ),
         (
             json!("x"),
@@ -330,12 +330,12 @@ fn faults_of_the_text_name_line_and_column() {
     assert_eq!(message(&format!("{text}}}")), "m.json:160:1: trailing characters");
     assert_eq!(
         message(&text.replace("\"50 MHz\"", "\"50 m\"")),
-        "m.json:33:21: processor.clock.value: found \"50 m\" with the unit \"m\"; \
+        "m.json:33: processor.clock.value: found \"50 m\" with the unit \"m\"; \
          expected a frequency such as \"50 MHz\" (units: Hz, kHz, MHz, GHz)"
     );
     assert_eq!(
         message(&text.replace("\"cell_step\"", "\"ray\"")),
-        "m.json:53:11: processor.operations: found \"ray\" twice; expected it once"
+        "m.json:53:11: processor.operations: found the key \"ray\" twice; expected it once"
     );
 }
 

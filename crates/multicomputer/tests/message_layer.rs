@@ -368,7 +368,7 @@ fn sizes_are_whole_numbers_of_bytes() {
         assert_eq!(
             error.to_string(),
             format!(
-                "m.json: message_layer.{expected}; expected a whole number of bytes, at least 1"
+                "m.json:1: message_layer.{expected}; expected a whole number of bytes, at least 1"
             )
         );
     }

@@ -73,7 +73,7 @@ fn faults_name_message_field_value_and_what_was_expected() {
         ),
         (
             with("size", json!(1)),
-            "[1].size: unknown field `size`, expected one of `id`, `at`, `from`, `to`, `bytes`, `after`",
+            "[1].size: unknown field \"size\" (there are: id, at, from, to, bytes, after)",
         ),
         (json!({}), "invalid type: map, expected a list"),
     ] {
@@ -89,7 +89,7 @@ fn circles_are_named() {
     }
     assert_eq!(
         message(&json!(items)),
-        r#"t.json: [0].after: found a circle, "a" after "c" after "b" after "a"; expected messages that can be sent"#
+        r#"t.json:1: [0].after: found a circle, "a" after "c" after "b" after "a"; expected messages that can be sent"#
     );
 }
 

@@ -4,8 +4,9 @@ use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use lab::{Document, Fault, Trials};
-use serde_json::Value;
+use config::{Document, Fault, Place, merge};
+use lab::Trials;
+use serde_json::{Value, json};
 use virtwall::{Outcome, Problem};
 
 use crate::cases::case::{Case, Overlay};
@@ -50,9 +51,8 @@ impl<'a> CaseRuns<'a> {
     ) -> Result<CaseRuns<'a>, Fault> {
         let mut experiment = document.clone();
         experiment.value = case.experiment.clone();
-        let title = Value::String(case.title.clone());
-        lay_over(&mut experiment.value, overlay.clone());
-        lay_over(&mut experiment.value, [("title".to_owned(), title)].into_iter().collect());
+        merge(&mut experiment.value, Value::Object(overlay.clone()));
+        merge(&mut experiment.value, json!({ "title": case.title }));
         let folder = path.parent().and_then(Path::parent).unwrap_or(Path::new(""));
         let name = path.file_name().unwrap_or_default();
         let trials = Trials::of(&experiment, &folder.join(name))?;
@@ -64,7 +64,7 @@ impl<'a> CaseRuns<'a> {
                 } else {
                     let changed =
                         change.of(&trials.problem(number).space.scene).map_err(|error| {
-                            document.fault(&lab::Place::of("changes"), error.to_string())
+                            document.fault(&Place::of("changes"), error.to_string())
                         })?;
                     trials.problem_of(number, &changed)?
                 };
@@ -94,16 +94,5 @@ impl<'a> CaseRuns<'a> {
     /// The reason why a run did not end.
     pub fn outcomes(&self) -> Result<Vec<(&CaseRun, &Outcome)>, String> {
         self.list.iter().map(|run| Ok((run, self.outcome(run)?))).collect()
-    }
-}
-
-/// Merges fields into an object; objects in objects are merged field by field.
-fn lay_over(value: &mut Value, fields: Overlay) {
-    let Value::Object(object) = value else { return };
-    for (name, field) in fields {
-        match (object.get_mut(&name), field) {
-            (Some(inner @ Value::Object(_)), Value::Object(fields)) => lay_over(inner, fields),
-            (_, field) => _ = object.insert(name, field),
-        }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use lab::{Document, Fault};
+use config::{Document, Fault};
 
 use crate::cases::case::{Case, Overlay};
 use crate::checks::measures;

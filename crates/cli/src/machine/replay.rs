@@ -34,7 +34,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let machine = OpenMachine::load(&arguments.machine)?.machine;
     let file = arguments.trace.display().to_string();
-    let text = lab::read_text(&arguments.trace)?;
+    let text = config::read_text(&arguments.trace)?;
     let trace = Trace::from_json(&text, &file, machine.nodes()).map_err(Exit::bad_input)?;
     let model = arguments.network.model(&machine);
     let mut network = machine.network_on(model).map_err(Exit::bad_input)?;

@@ -19,11 +19,10 @@ pub struct Arguments {
 /// Prints the machine.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let open = OpenMachine::load(&arguments.machine)?;
-    let value: Value = serde_json::from_str(&open.text).map_err(Exit::failure)?;
     let model = open.machine.network_model.map_or("auto", |model| model.name());
     let mut text = format!("{}\n{}\n\n", open.machine.title, drawing(&open.machine));
     let _ = writeln!(text, "Network model: {model}. Numbers, from {}:\n", open.label);
-    numbers(&mut text, "", &value);
+    numbers(&mut text, "", &open.value);
     Ok(text)
 }
 

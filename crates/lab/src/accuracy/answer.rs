@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::sync::{Arc, Mutex, OnceLock};
 
+use config::Fault;
 use radiosity::{LocalEnvironment, PatchSize, Rgb, Space};
 use reference::{Dense, Patches, Reference};
 use virtwall::Problem;
 
 use crate::files::digest::FileDigest;
-use crate::files::fault::Fault;
 use crate::files::find::Found;
 use crate::host::held::held;
 

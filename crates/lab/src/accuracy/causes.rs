@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use multicomputer::{Machine, ModelChoice};
+use multicomputer::{Machine, NetworkModel};
 use radiosity::Rgb;
 use radiosity::glam::DVec3;
 use reference::Centres;
@@ -69,10 +69,10 @@ impl Explained<'_> {
 
     /// Radiosities of another run of the problem, one environment after the other.
     fn run(&self, point: &Experiment) -> Result<Vec<Rgb>, String> {
-        let point = Experiment { network: Some(ModelChoice::Ideal), ..point.clone() };
-        let run = simulator::run(self.problem, &point, self.kept, Arc::new(|| ()));
-        let (_, radiosity) =
-            simulator::carry_out(&run, &point, On::Simulation, self.machine, 0, None)?;
+        let mut machine = self.machine.clone();
+        machine.network_model = Some(NetworkModel::Ideal);
+        let run = simulator::run(self.problem, point, self.kept, Arc::new(|| ()));
+        let (_, radiosity) = simulator::carry_out(&run, point, On::Simulation, &machine, 0, None)?;
         Ok(radiosity.concat())
     }
 

@@ -13,7 +13,7 @@ use virtwall::{KeptShots, Problem, Selection};
 use crate::engine::simulator::{self, Stopped};
 use crate::experiment::fields::Experiment;
 use crate::experiment::source_split::SplitFields;
-use crate::files::fault::WrongField;
+use crate::files::WrongField;
 use crate::files::quantity::{Fraction, Length};
 use crate::open::problem;
 use crate::open::settings::Settings;

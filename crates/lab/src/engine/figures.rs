@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::engine::display::DisplayFigures;
 use crate::engine::error_figures::ErrorFigures;
 use crate::engine::message_layer::MessageLayerFigures;
 use crate::engine::network::NetworkFigures;
+use crate::engine::node_memory::NodeMemoryFigures;
 use crate::engine::start_up::StartUpFigures;
-use crate::experiment::display::DisplayFigures;
-use crate::experiment::node_memory::NodeMemoryFigures;
 
 /// The figures of one run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,8 +1,6 @@
 //! Which model of the network a run is simulated on, and what it tells of the network.
 
-use multicomputer::{
-    AutoResult, Machine, MachineError, ModelChoice, NetworkModel, Record, Recorder,
-};
+use multicomputer::{AutoResult, Machine, NetworkModel, Record, Recorder};
 use serde::{Deserialize, Serialize};
 use virtwall::{Outcome, Run, RunError, SharedObserver, simulate_observed};
 
@@ -24,31 +22,19 @@ pub struct NetworkFigures {
     pub blocked_s: f64,
 }
 
-/// Makes sure that a machine's file says enough for the model that an experiment asks for.
-///
-/// # Errors
-/// What is missing.
-pub fn check(machine: &Machine, choice: Option<ModelChoice>) -> Result<(), MachineError> {
-    match choice.and_then(ModelChoice::model) {
-        Some(rung) => machine.network_on(rung).map(|_| ()),
-        None => Ok(()),
-    }
+/// Whether results tell of the network: an experiment that chooses the model, or leaves it open, wants to
+/// know what was used.
+pub fn tells(machine: &Machine, point: &Experiment) -> bool {
+    point.machine.chooses_network_model() || machine.network_model.is_none()
 }
 
-/// Whether results tell of the network: an experiment, or a machine's file, that leaves the model open
-/// wants to know what was chosen.
-pub fn tells(machine: &Machine, choice: Option<ModelChoice>) -> bool {
-    choice.is_some() || machine.network_model.is_none()
+/// Whether runs are simulated to find out which model will do: observing one then takes another
+/// simulation.
+pub fn is_open(machine: &Machine) -> bool {
+    machine.network_model.is_none()
 }
 
-/// Whether runs are simulated to find out which model will do: whoever observes one then has it simulated
-/// once more.
-pub fn is_open(machine: &Machine, choice: Option<ModelChoice>) -> bool {
-    choice.map_or(machine.network_model, ModelChoice::model).is_none()
-}
-
-/// Simulates a run on the model that an experiment asks for, or else the machine's file, and tells
-/// `observer` of it.
+/// Simulates a run on the machine's model of its network, and tells `observer` of it.
 ///
 /// # Errors
 /// Why the run did not end.
@@ -58,14 +44,14 @@ pub fn simulate(
     point: &Experiment,
     observer: Option<SharedObserver>,
 ) -> Result<(Outcome, Option<NetworkFigures>), RunError> {
-    if !tells(machine, point.network) {
+    if !tells(machine, point) {
         return Ok((simulate_observed(run, machine, machine.network(), observer)?, None));
     }
     let over = |network| {
         let outcome = virtwall::simulate_over(run, machine, network)?;
         Ok::<_, RunError>((outcome.time, outcome))
     };
-    let chosen = match point.network.map_or(machine.network_model, ModelChoice::model) {
+    let chosen = match machine.network_model {
         None => {
             let tolerance = point.network_tolerance.as_ref().map_or(TOLERANCE, |t| t.value());
             let chosen =
@@ -92,7 +78,7 @@ pub fn simulate(
 /// # Errors
 /// Why the run did not end.
 pub fn rung(run: &Run, machine: &Machine, point: &Experiment) -> Result<NetworkModel, RunError> {
-    match point.network.map_or(machine.network_model, ModelChoice::model) {
+    match machine.network_model {
         Some(rung) => Ok(rung),
         None => {
             let (_, figures) = simulate(run, machine, point, None)?;

@@ -1,10 +1,10 @@
 //! The one door to the simulator: beyond it nothing here knows how a kernel or a link works.
 
-use std::borrow::Cow;
 use std::cell::RefCell;
 use std::rc::Rc;
 use std::sync::Arc;
 
+use config::{Fault, Place};
 use desim::Time;
 use multicomputer::Machine;
 use radiosity::{Operation, Rgb};
@@ -14,17 +14,14 @@ use virtwall::{
     StartUpStep, Thing,
 };
 
+use crate::engine::display::DisplayFigures;
 use crate::engine::figures::{Energy, Figures};
 use crate::engine::knobs;
 use crate::engine::message_layer::{self, MessageLayerFigures};
 use crate::engine::network;
+use crate::engine::node_memory;
 use crate::engine::start_up::StartUpFigures;
-use crate::experiment::display::DisplayFigures;
 use crate::experiment::fields::Experiment;
-use crate::experiment::node_memory;
-use crate::files::fault::Fault;
-use crate::files::find::Found;
-use crate::open::machine_file::MachineFile;
 
 /// What the programs run on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
@@ -42,37 +39,29 @@ pub fn operations() -> impl Iterator<Item = &'static str> {
     Operation::ALL.iter().map(|operation| operation.name())
 }
 
-/// Reads a machine description and makes sure that it prices every operation.
+/// Makes sure that a machine prices every operation, gives everything in its memory a size, and prices
+/// every step of its start-up, where it has these.
 ///
 /// # Errors
-/// What is wrong with the file, and where.
-pub fn load_machine(found: &Found) -> Result<MachineFile, Fault> {
-    let file = MachineFile::load(found)?;
-    let processor = &file.machine.processor;
+/// What is missing, and where; the file is left open.
+pub fn check_machine(machine: &Machine) -> Result<(), Fault> {
+    let processor = &machine.processor;
     let priced = |operation: &&Operation| processor.price(operation.name()).is_some();
-    match Operation::ALL.iter().find(|operation| !priced(operation)) {
-        None => sized(file, found),
-        Some(operation) => {
-            let message = format!("no price of \"{}\"; expected one of each", operation.name());
-            Err(Fault::of_file(found.path.display(), message))
-        }
-    }
-}
-
-/// Makes sure that a machine with memory gives everything a size, and one with a start-up every step a
-/// price.
-fn sized(file: MachineFile, found: &Found) -> Result<MachineFile, Fault> {
-    let machine = &file.machine;
+    let operation = Operation::ALL.iter().find(|operation| !priced(operation));
     let thing = machine.node_memory.as_ref().and_then(Thing::without_size);
     let step = machine.start_up.as_ref().and_then(StartUpStep::without_price);
-    let message = match (thing, step) {
-        (Some(thing), _) => format!("no size of \"{}\"; expected one of each", thing.name()),
-        (_, Some(step)) => {
-            format!("start_up.operations: no price of \"{}\"; expected one of each", step.name())
+    let missing = [
+        operation.map(|operation| ("processor.operations", "price", operation.name())),
+        thing.map(|thing| ("node_memory.sizes", "size", thing.name())),
+        step.map(|step| ("start_up.operations", "price", step.name())),
+    ];
+    match missing.into_iter().flatten().next() {
+        None => Ok(()),
+        Some((place, what, name)) => {
+            let message = format!("no {what} of \"{name}\"; expected one of each");
+            Err(Fault::at(Place::of(place), message))
         }
-        (None, None) => return Ok(file),
-    };
-    Err(Fault::of_file(found.path.display(), message))
+    }
 }
 
 /// The run of a problem at one point of an experiment; `on_shot` is called after every shot.
@@ -104,7 +93,6 @@ pub fn carry_out(
     scene_bytes: u64,
     observer: Option<SharedObserver>,
 ) -> Result<(Figures, Vec<Vec<Rgb>>), String> {
-    let machine = &*changed(machine, point);
     let simulated = || {
         let start_up = virtwall::start_up(run, machine, scene_bytes)?;
         let (outcome, network) = network::simulate(run, machine, point, observer)?;
@@ -130,17 +118,6 @@ pub fn carry_out(
     Ok((figures, outcome.radiosity))
 }
 
-/// The machine as a point of an experiment has it.
-fn changed<'a>(machine: &'a Machine, point: &Experiment) -> Cow<'a, Machine> {
-    if point.node_memory.is_empty() && point.display.is_empty() {
-        return Cow::Borrowed(machine);
-    }
-    let mut machine = machine.clone();
-    machine.node_memory.iter_mut().for_each(|memory| point.node_memory.lay_over(memory));
-    machine.display.iter_mut().for_each(|display| point.display.lay_over(display));
-    Cow::Owned(machine)
-}
-
 /// Radiosity in W/m², by environment and patch.
 pub type Light = Vec<Vec<Rgb>>;
 
@@ -155,7 +132,6 @@ pub fn light_at(
     machine: &Machine,
     times: &[Time],
 ) -> Result<(Vec<Light>, Time), String> {
-    let machine = changed(machine, point);
     let light = Rc::new(RefCell::new(Vec::new()));
     let visit = {
         let light = Rc::clone(&light);
@@ -163,9 +139,9 @@ pub fn light_at(
             light.borrow_mut().push(instant.radiosity().map(Iterator::collect).collect());
         }
     };
-    let outcome = network::rung(run, &machine, point)
+    let outcome = network::rung(run, machine, point)
         .and_then(|rung| Ok(machine.network_on(rung)?))
-        .and_then(|network| virtwall::visit_instants(run, &machine, network, times, visit))
+        .and_then(|network| virtwall::visit_instants(run, machine, network, times, visit))
         .map_err(|error| error.to_string())?;
     Ok((light.take(), outcome.time))
 }
@@ -193,7 +169,6 @@ pub fn stops(
     machine: &Machine,
     thresholds: &[f64],
 ) -> Result<Vec<Stopped>, String> {
-    let machine = changed(machine, point);
     let stops = Rc::new(RefCell::new(Vec::new()));
     let visit = {
         let stops = Rc::clone(&stops);
@@ -208,14 +183,14 @@ pub fn stops(
             });
         }
     };
-    let rung = network::rung(run, &machine, point).map_err(|error| error.to_string())?;
+    let rung = network::rung(run, machine, point).map_err(|error| error.to_string())?;
     // Among several environments a run is not the beginning of another one.
     let together = if run.problem.environments.len() == 1 { thresholds.len().max(1) } else { 1 };
     for thresholds in thresholds.chunks(together) {
         let network = machine.network_on(rung).map_err(|error| error.to_string())?;
         let mut run = run.clone();
         run.rules.patch_threshold = thresholds[thresholds.len() - 1];
-        virtwall::visit_stops(&run, &machine, network, thresholds, visit.clone())
+        virtwall::visit_stops(&run, machine, network, thresholds, visit.clone())
             .map_err(|error| error.to_string())?;
     }
     Ok(stops.take())
@@ -242,7 +217,7 @@ pub fn solved(problem: &Problem, unshot: f64) -> (Light, f64) {
 /// # Errors
 /// Why the run did not end.
 pub fn outcome(run: &Run, point: &Experiment, machine: &Machine) -> Result<Outcome, String> {
-    let found = network::simulate(run, &changed(machine, point), point, None);
+    let found = network::simulate(run, machine, point, None);
     found.map(|(outcome, _)| outcome).map_err(|error| error.to_string())
 }
 

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::files::fault::WrongField;
+use crate::files::WrongField;
 
 /// The error that results are to stay below; the knobs that trade accuracy for time are found.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]

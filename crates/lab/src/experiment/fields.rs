@@ -2,31 +2,22 @@
 
 use std::collections::BTreeMap;
 
-use multicomputer::ModelChoice;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use virtwall::{Mapping, Order, Selection, Ties};
 
 use crate::experiment::accuracy::AccuracyFields;
-use crate::experiment::display::DisplayFields;
 use crate::experiment::hemisphere::Hemisphere;
 use crate::experiment::interfaces::{Interfaces, VirtualWalls};
-use crate::experiment::node_memory::NodeMemoryFields;
+use crate::experiment::machine::MachineChoice;
 use crate::experiment::refine::RefineFields;
 use crate::experiment::source_split::SplitFields;
-use crate::files::quantity::{Fraction, Length, Period, Triple};
-use crate::files::schema;
+use crate::files::counts::Triple;
+use crate::files::quantity::{Fraction, Length, Period};
 
 /// Fields of an experiment file in which a list is no sweep.
 pub const UNSWEPT: [&str; 4] = ["$schema", "title", "compare_with", "plots"];
-
-/// The schema of an experiment file.
-pub fn experiment_schema() -> Value {
-    let mut schema = schema::of::<Experiment>();
-    schema::sweepable(&mut schema, &UNSWEPT);
-    schema
-}
 
 /// An experiment: the runs of a scene on a machine, and what to draw of them.
 ///
@@ -45,25 +36,16 @@ pub struct Experiment {
     /// The scene: the name of a file in scenes/, or a path, relative to this file, to a scene
     /// description (.json) or a bare OBJ file (.obj).
     pub scene: String,
-    /// The machine: the name of a file in machines/, or a path, relative to this file.
-    #[serde(default = "default_machine")]
-    pub machine: String,
-    /// Model of the network, in place of the one that the machine's file chooses. With it come the
-    /// columns network_used, network_why, busiest_link and blocked_s.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub network: Option<ModelChoice>,
+    /// The machine: the name of a file in machines/, or a path, relative to this file. Or an object:
+    /// such a name under "extends", "paragon-xps" by default, and fields of a machine file in place of
+    /// that machine's; a bare value does where the file says value, provenance and source. A model of
+    /// the network that is chosen here brings the columns network_used, network_why, busiest_link and
+    /// blocked_s. A machine with memory, with a display or with a start-up brings columns of its own.
+    #[serde(default)]
+    pub machine: MachineChoice,
     /// How far the time on the network "auto" may be from that on the next finer one. Default: 1 %.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub network_tolerance: Option<Fraction>,
-    /// Memory of a node, in place of what the machine's file says; its file must model it. Results on
-    /// such a machine have the columns memory_high_water, the bytes of the fullest node, and paging_s.
-    #[serde(default, skip_serializing_if = "NodeMemoryFields::is_empty")]
-    pub node_memory: NodeMemoryFields,
-    /// The display, in place of what the machine's file says; its file must model one. Results on such a
-    /// machine have the columns display_lag_s, updates_shown, updates_dropped, waiting_for_display_s,
-    /// service_busy_fraction, ethernet_busy_fraction and display_busy_fraction. Paper: Figure 6.
-    #[serde(default, skip_serializing_if = "DisplayFields::is_empty")]
-    pub display: DisplayFields,
     /// Whether time_s begins with the start-up, in place of the end of initialisation; the machine's file
     /// must model it. Results on such a machine have the columns start_up_s, reading_s and disk_wait_s.
     /// Paper: §4.2.1.
@@ -283,10 +265,6 @@ fn one() -> f64 {
 
 fn is_one(value: &f64) -> bool {
     *value == 1.0
-}
-
-fn default_machine() -> String {
-    "paragon-xps".to_owned()
 }
 
 fn default_local_environments() -> u32 {

@@ -3,7 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::files::quantity::{Counts, Fraction, Pair};
+use crate::files::counts::{Counts, Pair};
+use crate::files::quantity::Fraction;
 
 /// What carries light across from one local environment to the next.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]

@@ -1,11 +1,9 @@
 //! The rule of sweeps: where one value is expected, a list sweeps it.
 
+use config::{Document, Fault, Place, Step};
 use serde_json::Value;
 
 use crate::experiment::fields::UNSWEPT;
-use crate::files::document::Document;
-use crate::files::fault::Fault;
-use crate::files::place::{Place, Step};
 
 /// More runs than anyone means to start.
 const MOST_RUNS: usize = 100_000;
@@ -57,9 +55,11 @@ impl Sweep {
 
     /// The place in the file of a place in one of its points: at a swept field, the item.
     pub fn place_in_file(&self, point: &Point, place: Place) -> Place {
-        let swept = self.axes.iter().zip(&point.index).find(|(axis, _)| axis.place == place);
-        match swept {
-            Some((axis, &item)) => axis.place.item(item),
+        let mut axes = self.axes.iter().zip(&point.index);
+        match axes.find(|(axis, _)| axis.place.holds(&place)) {
+            Some((axis, &item)) => {
+                axis.place.item(item).join(&Place(place.0[axis.place.0.len()..].to_vec()))
+            }
             None => place,
         }
     }
@@ -94,7 +94,7 @@ fn check_list(document: &Document, items: &[Value], place: &Place) -> Result<(),
         return Err(document.fault(place, "an empty list; expected at least one value to sweep"));
     }
     for (i, item) in items.iter().enumerate() {
-        if item.is_array() || item.is_object() {
+        if has_list(item) {
             let message = format!("{item} inside a list; expected a single value to sweep");
             return Err(document.fault(&place.item(i), message));
         }
@@ -104,6 +104,33 @@ fn check_list(document: &Document, items: &[Value], place: &Place) -> Result<(),
         }
     }
     Ok(())
+}
+
+fn has_list(value: &Value) -> bool {
+    match value {
+        Value::Object(fields) => fields.values().any(has_list),
+        value => value.is_array(),
+    }
+}
+
+/// A value in words: fields of an object by their paths, but for the name of what it extends, which
+/// comes first by itself.
+pub fn in_words(value: &Value) -> String {
+    match value {
+        Value::Null => String::new(),
+        Value::String(text) => text.clone(),
+        Value::Object(fields) => {
+            let name = fields.get("extends").map(in_words);
+            let mut words: Vec<String> = name.into_iter().collect();
+            fields.iter().filter(|(key, _)| *key != "extends").for_each(|(key, field)| {
+                let inner = if field.is_null() { "null".to_owned() } else { in_words(field) };
+                let nested = field.is_object().then_some('.').unwrap_or(' ');
+                words.extend(inner.split(", ").map(|inner| format!("{key}{nested}{inner}")));
+            });
+            words.join(", ")
+        }
+        other => other.to_string(),
+    }
 }
 
 /// The `run`th point: a mixed-radix count over the axes, the last one fastest.
@@ -152,6 +179,16 @@ mod tests {
     }
 
     #[test]
+    fn a_list_of_objects_sweeps_a_field() {
+        let text = r#"{"a": ["x", {"extends": "x", "b": {"c": "1 s", "d": null}, "e": 2}]}"#;
+        let sweep = sweep(text).unwrap();
+        let cells: Vec<_> = sweep.axes[0].values.iter().map(in_words).collect();
+        assert_eq!(cells, ["x", "x, b.c 1 s, b.d null, e 2"]);
+        let place = sweep.place_in_file(&sweep.points[1], Place::of("a.b.c"));
+        assert_eq!(place.to_string(), "a[1].b.c");
+    }
+
+    #[test]
     fn no_list_is_one_run() {
         let sweep = sweep(r#"{"a": 1}"#).unwrap();
         assert_eq!((sweep.axes.len(), sweep.points.len()), (0, 1));
@@ -164,6 +201,10 @@ mod tests {
             (
                 "{\n\"a\": {\"b\": [1,\n 2, 1]}}",
                 "x.json:3: a.b[2]: 1 stands in the list twice; expected each value once",
+            ),
+            (
+                r#"{"a": [{"b": [1]}]}"#,
+                "x.json:1: a[0]: {\"b\":[1]} inside a list; expected a single value to sweep",
             ),
             (
                 r#"{"a": [[1]]}"#,

@@ -3,9 +3,9 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use config::Fault;
 use sha2::{Digest, Sha256};
 
-use crate::files::fault::Fault;
 use crate::files::file;
 
 /// SHA-256 of some bytes, in hexadecimal.

@@ -1,10 +1,9 @@
 //! Files: read with a message that names them, written whole or not at all.
 
+use config::{Fault, unreadable};
 use std::fs;
 use std::io;
 use std::path::Path;
-
-use crate::files::fault::Fault;
 
 /// What a plain name is, for messages.
 pub const PLAIN: &str = "letters, digits, \"-\", \"_\" and \".\", the first one no \".\"";
@@ -21,19 +20,6 @@ pub fn is_plain(name: &str) -> bool {
 /// If it cannot be read.
 pub fn read(path: &Path) -> Result<Vec<u8>, Fault> {
     fs::read(path).map_err(|error| unreadable(path, error))
-}
-
-/// A file's text.
-///
-/// # Errors
-/// If it cannot be read, or is not UTF-8.
-pub fn read_text(path: &Path) -> Result<String, Fault> {
-    fs::read_to_string(path).map_err(|error| unreadable(path, error))
-}
-
-/// The fault of a file that cannot be read.
-pub fn unreadable(path: &Path, error: impl std::fmt::Display) -> Fault {
-    Fault::of_file(path.display(), format!("cannot be read: {error}"))
 }
 
 /// Writes a file under a temporary name beside it and then renames it: a reader, or a run that

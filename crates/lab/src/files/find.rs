@@ -1,8 +1,7 @@
 //! Where scenes and machines lie: names stand for files in `scenes/` and `machines/`.
 
+use config::unknown;
 use std::path::{Path, PathBuf};
-
-use crate::files::fault::unknown;
 
 /// A kind of files that go by their names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,12 +2,10 @@
 
 use std::path::Path;
 
+use config::{Document, Fault, read_text};
 use multicomputer::Trace;
 
 use crate::engine::simulator;
-use crate::files::document::Document;
-use crate::files::fault::Fault;
-use crate::files::file;
 use crate::files::find::Found;
 use crate::open::open_machine::OpenMachine;
 use crate::open::scene::Scene;
@@ -23,7 +21,7 @@ pub fn check(path: &Path) -> Result<String, Fault> {
     if path.extension().is_some_and(|ending| ending == "obj") {
         return scene(path, "an OBJ file");
     }
-    let text = file::read_text(path)?;
+    let text = read_text(path)?;
     if text.trim_start().starts_with('[') {
         let file = path.display().to_string();
         let trace = Trace::from_json(&text, &file, usize::MAX).map_err(Fault::complete)?;
@@ -40,14 +38,14 @@ pub fn check(path: &Path) -> Result<String, Fault> {
         return scene(path, "a scene");
     }
     if has("processor") || has("network") || has("extends") {
-        let found = Found { path: path.to_owned(), label: path.display().to_string() };
         let machine = OpenMachine::load(&path.display().to_string())?.machine;
         let (compute, service) = (machine.compute_nodes(), machine.service_nodes());
         let what = format!("a machine, {compute} compute nodes and {service} service nodes");
         if machine.processor.cycles.is_empty() {
             return Ok(what + "; it prices no operation, so that it only replays traces");
         }
-        simulator::load_machine(&found)?;
+        simulator::check_machine(&machine)
+            .map_err(|fault| Fault { file: path.display().to_string(), ..fault })?;
         return Ok(what);
     }
     let message = "neither an experiment (\"scene\"), a scene (\"obj\" or \"made\") nor a machine (\"processor\"); \

@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use config::{Document, Fault};
 use desim::Time;
 use multicomputer::Machine;
 use radiosity::{LocalEnvironment, Space};
@@ -11,10 +12,7 @@ use virtwall::{KeptShots, Problem};
 
 use crate::engine::simulator::{self, Light};
 use crate::experiment::fields::Experiment;
-use crate::files::document::Document;
-use crate::files::fault::Fault;
 use crate::files::find::{Shelf, find};
-use crate::files::place::Place;
 use crate::open::problem;
 use crate::open::scene::Scene;
 use crate::open::settings::Settings;
@@ -113,12 +111,7 @@ impl Stage {
         let row = which.row.unwrap_or(plan.runs.len());
         let Some(run) = row.checked_sub(1).and_then(|index| plan.runs.get(index)) else {
             let message = format!("{row}; expected a row of runs.csv, 1 to {}", plan.runs.len());
-            return Err(Fault {
-                file: "--run".to_owned(),
-                line: None,
-                place: Place::default(),
-                message,
-            });
+            return Err(Fault::of_file("--run", message));
         };
         let point = run.point.clone();
         let title = format!("{}, {} on {} processors", plan.title, point.scene, point.processors);

@@ -4,16 +4,15 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use config::{Document, Fault};
 use serde_json::Value;
 use virtwall::{KeptShots, Outcome, Problem};
 
 use crate::engine::simulator;
-use crate::files::document::Document;
-use crate::files::fault::Fault;
+use crate::experiment::sweep::in_words;
 use crate::open::problem;
 use crate::planning::plan::Plan;
 use crate::planning::preparing::Preparing;
-use crate::table::columns;
 
 /// Host memory for the shots that a run keeps, bytes.
 const MEMORY: usize = 256 << 20;
@@ -46,7 +45,7 @@ impl Trials {
         let axes = self.plan.axes.iter().zip(&self.plan.runs[run].index);
         let field = |(axis, &item): (&crate::experiment::sweep::Axis, &usize)| {
             let value: &Value = &axis.values[item];
-            format!("{} {}", axis.place, columns::cell(value))
+            format!("{} {}", axis.place, in_words(value))
         };
         axes.map(field).collect::<Vec<_>>().join(", ")
     }

@@ -1,6 +1,6 @@
 //! The straightforward, automatic decomposition: near-cubic cells, near-cubic environments.
 
-use crate::files::quantity::{Counts, Triple};
+use crate::files::counts::{Counts, Triple};
 
 /// Most cells along one axis that the automatic grid makes.
 const MOST_CELLS: u32 = 128;

@@ -2,79 +2,73 @@
 
 use std::path::Path;
 
-use multicomputer::{Machine, MachineError};
+use config::{Document, Fault, Place, merge, read_text};
+use multicomputer::{Machine, with_source};
 use serde_json::Value;
 
 use crate::files::digest::FileDigest;
-use crate::files::fault::Fault;
-use crate::files::file;
 use crate::files::find::{Found, Shelf, find};
 
 /// A longer row of machines that extend each other can only be a circle.
 const LONGEST_ROW: usize = 8;
 
 /// A machine, and the files that it was read from.
+#[derive(Clone)]
 pub struct MachineFile {
     /// The machine.
     pub machine: Machine,
-    /// The whole machine as one file would say it; the file's own text if it extends none.
-    pub text: String,
+    /// The whole machine as one file would say it.
+    pub value: Value,
     /// The file, and then those that it extends.
     pub digests: Vec<FileDigest>,
 }
 
 impl MachineFile {
-    /// Reads a machine from its file, and what that says to extend from there.
+    /// Reads a machine from its file, and what that says to extend from there. Each of these files
+    /// must describe a machine by itself, so that a fault is always in the file that is named.
     ///
     /// # Errors
     /// What is wrong, and where.
     pub fn load(found: &Found) -> Result<MachineFile, Fault> {
-        let mut text = file::read_text(&found.path)?;
+        MachineFile::within(found, LONGEST_ROW)
+    }
+
+    /// The same, for a row of at most `longest` files.
+    fn within(found: &Found, longest: usize) -> Result<MachineFile, Fault> {
+        let text = read_text(&found.path)?;
         let mut digests = vec![FileDigest::of_bytes(text.as_bytes(), &found.label)];
-        let mut here = found.clone();
-        let mut whole = serde_json::from_str::<Value>(&text).unwrap_or_default();
-        while let Some(Value::String(base)) = take(&mut whole, "extends") {
-            let fault = |message| Fault::of_file(format!("{}: extends", here.label), message);
-            if digests.len() == LONGEST_ROW {
+        let mut document = Document::parse(&found.label, text)?;
+        if let Some(Value::String(base)) = document.value.get("extends") {
+            let fault = |message| document.fault(&Place::of("extends"), message);
+            if longest == 1 {
                 return Err(fault(format!("found \"{base}\"; expected an end of the row")));
             }
-            let folder = here.path.parent().unwrap_or(Path::new(""));
-            here = find(folder, Shelf::Machines, &base).map_err(fault)?;
-            let base = file::read_text(&here.path)?;
-            digests.push(FileDigest::of_bytes(base.as_bytes(), &here.label));
-            let mut base: Value = serde_json::from_str(&base)
-                .map_err(|error| Fault::of_file(&here.label, error.to_string()))?;
-            lay_over(&mut base, whole);
-            whole = base;
-            text = whole.to_string();
+            let folder = found.path.parent().unwrap_or(Path::new(""));
+            let base = find(folder, Shelf::Machines, base).map_err(fault)?;
+            let base = MachineFile::within(&base, longest - 1)?;
+            let changes = std::mem::replace(&mut document.value, base.value);
+            merge(&mut document.value, without_extends(changes));
+            digests.extend(base.digests);
         }
-        let machine = Machine::from_json(&text, &found.label).map_err(|error| match error {
-            // The lines of a text that nobody has written help nobody.
-            MachineError::File(mut fault) if digests.len() > 1 => {
-                fault.line_and_column = None;
-                Fault::complete(fault)
-            }
-            error => Fault::complete(error),
-        })?;
-        Ok(MachineFile { machine, text, digests })
+        let machine = Machine::of(&document.value).map_err(|fault| document.locate(fault))?;
+        Ok(MachineFile { machine, value: document.value, digests })
     }
 }
 
-fn take(value: &mut Value, key: &str) -> Option<Value> {
-    value.as_object_mut()?.remove(key)
+impl MachineFile {
+    /// The machine with an experiment's changes.
+    ///
+    /// # Errors
+    /// What is wrong, and where in the machine; the file is left open.
+    pub fn changed(&self, mut changes: Value) -> Result<Machine, Fault> {
+        with_source(&mut changes, "the experiment");
+        let mut value = self.value.clone();
+        merge(&mut value, changes);
+        Machine::of(&value)
+    }
 }
 
-/// Changes what the patch names, by RFC 7396: objects field by field, and null takes a field away.
-fn lay_over(value: &mut Value, patch: Value) {
-    match (value, patch) {
-        (Value::Object(fields), Value::Object(changes)) => {
-            for (name, change) in changes {
-                match change {
-                    Value::Null => drop(fields.shift_remove(&name)),
-                    change => lay_over(fields.entry(name).or_insert(Value::Null), change),
-                }
-            }
-        }
-        (value, patch) => *value = patch,
-    }
+fn without_extends(mut changes: Value) -> Value {
+    changes.as_object_mut().and_then(|fields| fields.shift_remove("extends"));
+    changes
 }

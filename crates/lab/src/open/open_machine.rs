@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
+use config::Fault;
 use multicomputer::Machine;
+use serde_json::Value;
 
-use crate::files::fault::Fault;
 use crate::files::find::{Shelf, find};
 use crate::open::machine_file::MachineFile;
 
@@ -15,7 +16,7 @@ pub struct OpenMachine {
     /// What results call its file.
     pub label: String,
     /// What its file says, with what it extends.
-    pub text: String,
+    pub value: Value,
 }
 
 impl OpenMachine {
@@ -26,7 +27,7 @@ impl OpenMachine {
     /// What is wrong, and where.
     pub fn load(name: &str) -> Result<OpenMachine, Fault> {
         let found = find(Path::new("."), Shelf::Machines, name).map_err(Fault::complete)?;
-        let MachineFile { machine, text, .. } = MachineFile::load(&found)?;
-        Ok(OpenMachine { machine, label: found.label, text })
+        let MachineFile { machine, value, .. } = MachineFile::load(&found)?;
+        Ok(OpenMachine { machine, label: found.label, value })
     }
 }

@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
+use config::Fault;
+
 use crate::experiment::fields::Experiment;
-use crate::files::fault::Fault;
 use crate::files::find::{Shelf, find};
 use crate::open::scene::Scene;
 use crate::open::settings::Settings;

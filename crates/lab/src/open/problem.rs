@@ -5,7 +5,7 @@ use std::sync::Arc;
 use radiosity::{DepthBits, Hemisphere, PatchSize, VirtualWalls, VirtualWallsError};
 use virtwall::{CutScene, Problem, ProblemError, ProblemOptions};
 
-use crate::files::fault::WrongField;
+use crate::files::WrongField;
 use crate::host::host_clock::HostClock;
 use crate::open::settings::Settings;
 use crate::open::wall_mesh::WallMesh;

@@ -4,13 +4,11 @@ use std::cell::{Cell, RefCell};
 use std::path::Path;
 use std::{fs, io};
 
+use config::{Document, Fault, Place};
 use scenemaker::{FLOORS, SceneText, make_building};
 
 use crate::files::digest::FileDigest;
-use crate::files::document::Document;
-use crate::files::fault::Fault;
 use crate::files::find::Found;
-use crate::files::place::Place;
 use crate::open::scene_file::SceneFile;
 
 /// A scene with its description, if it has one.

@@ -2,15 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use config::{Document, Fault, Place, schema};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::files::document::Document;
-use crate::files::fault::Fault;
-use crate::files::place::Place;
-use crate::files::quantity::{Length, Triple};
-use crate::files::schema;
+use crate::files::counts::Triple;
+use crate::files::quantity::Length;
 use crate::open::medium::MediumFields;
 
 /// The schema of a scene description.
@@ -76,8 +74,7 @@ impl SceneFile {
     /// # Errors
     /// A fault of the document, at its place.
     pub fn of(document: &Document) -> Result<SceneFile, Fault> {
-        document.refuse_unknown_keys::<SceneFile>()?;
-        let file: SceneFile = document.typed(&document.value, |place| place)?;
+        let file: SceneFile = document.read_as()?;
         for (environments, cut) in &file.cuts {
             let place = Place::of("cuts").key(environments);
             if environments.parse() != Ok(cut.product()) {

@@ -5,8 +5,8 @@ use serde::Serialize;
 
 use crate::experiment::fields::{Experiment, is_false};
 use crate::experiment::refine::RefineFields;
-use crate::files::fault::WrongField;
-use crate::files::quantity::Triple;
+use crate::files::WrongField;
+use crate::files::counts::Triple;
 use crate::open::cut::{automatic_cells, automatic_cut};
 use crate::open::scene::Scene;
 use crate::open::wall_mesh::WallMesh;

@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use crate::experiment::fields::Experiment;
 use crate::experiment::interfaces::VirtualWalls;
-use crate::files::fault::WrongField;
-use crate::files::quantity::Pair;
+use crate::files::WrongField;
+use crate::files::counts::Pair;
 
 /// A mesh of virtual walls: what of it decides what a shot does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

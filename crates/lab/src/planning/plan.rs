@@ -1,9 +1,9 @@
 //! An experiment file read, expanded and validated, once, at the door: nothing in a plan can be
 //! refused later.
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
+use config::Place;
 use multicomputer::Machine;
 use serde_json::Value;
 use virtwall::Problem;
@@ -12,8 +12,8 @@ use crate::accuracy::answer::{Answer, DenseAnswers, Stored};
 use crate::accuracy::tuned::Tuned;
 use crate::experiment::fields::{Experiment, Plot};
 use crate::experiment::sweep::Axis;
+use crate::experiment::sweep::in_words;
 use crate::files::digest::FileDigest;
-use crate::files::place::Place;
 use crate::open::settings::Settings;
 use crate::table::column::{Column, Input};
 use crate::table::columns;
@@ -63,7 +63,7 @@ impl Plan {
         for (axis, &item) in self.axes.iter().zip(&run.index) {
             let field = axis.place.to_string();
             if !["scene", "processors"].contains(&field.as_str()) {
-                label += &format!(", {field} {}", columns::cell(&axis.values[item]));
+                label += &format!(", {field} {}", in_words(&axis.values[item]));
             }
         }
         label
@@ -135,8 +135,6 @@ pub struct Prepared {
 pub struct Equipment {
     /// The machine.
     pub machine: Machine,
-    /// Where its file is.
-    pub path: PathBuf,
     /// Its file, and those that it extends.
     pub digests: Vec<FileDigest>,
 }

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use config::{Document, Fault, Place, fill, read, refuse_unknown_keys, schema};
 use serde_json::Value;
 
 use crate::accuracy::answer::{self, Stored};
@@ -12,14 +13,11 @@ use crate::accuracy::tuned::Tuned;
 use crate::accuracy::tuner::tune;
 use crate::engine::simulator;
 use crate::experiment::fields::Experiment;
+use crate::experiment::machine::open_up;
 use crate::experiment::sweep::{Point, Sweep};
 use crate::files::digest::FileDigest;
-use crate::files::document::Document;
-use crate::files::fault::Fault;
 use crate::files::file::{PLAIN, is_plain};
 use crate::files::find::{Found, Shelf, find, named_from};
-use crate::files::json;
-use crate::files::place::Place;
 use crate::host::host_clock::HostClock;
 use crate::host::program::program;
 use crate::open::machine_file::MachineFile;
@@ -55,9 +53,13 @@ impl Plan {
         preparing: &Preparing,
     ) -> Result<Plan, Fault> {
         for argument in arguments {
+            if argument.starts_with("machine.") {
+                open_up(&mut document.value);
+            }
             document.set(argument)?;
         }
-        document.refuse_unknown_keys::<Experiment>()?;
+        let known = refuse_unknown_keys(&schema::of::<Experiment>(), &document.value);
+        known.map_err(|fault| document.locate(fault))?;
         let planner = Planner {
             path,
             folder: path.parent().unwrap_or(Path::new("")),
@@ -66,6 +68,8 @@ impl Plan {
             preparing,
             scenes: Vec::new(),
             machines: Vec::new(),
+            machine_of: BTreeMap::new(),
+            machine_files: BTreeMap::new(),
             references: BTreeMap::new(),
             stored: Vec::new(),
             sweeps: BTreeMap::new(),
@@ -83,6 +87,10 @@ struct Planner<'a> {
     preparing: &'a Preparing<'a>,
     scenes: Vec<Found>,
     machines: Vec<Equipment>,
+    /// Which of those, by what the experiment says of it.
+    machine_of: BTreeMap<String, usize>,
+    /// Machine files, by path.
+    machine_files: BTreeMap<PathBuf, MachineFile>,
     /// Which of those stored, by file and scene.
     references: BTreeMap<(PathBuf, usize), usize>,
     stored: Vec<Stored>,
@@ -166,8 +174,9 @@ impl Planner<'_> {
 
     /// Reads and checks one point of the sweep, but for its scene.
     fn draft<'p>(&mut self, point: &'p Point) -> Result<Draft<'p>, Fault> {
-        let locate = |place| self.sweep.place_in_file(point, place);
-        let typed: Experiment = self.document.typed(&point.value, locate)?;
+        let typed: Experiment = read(&point.value).map_err(|fault| {
+            self.document.fault(&self.sweep.place_in_file(point, fault.place), fault.message)
+        })?;
         let machine = self.machine(point, &typed)?;
         suits(&typed, &self.machines[machine].machine)
             .map_err(|(field, message)| self.fault(point, field, message))?;
@@ -221,15 +230,42 @@ impl Planner<'_> {
         self.document.fault(&self.sweep.place_in_file(point, Place::of(field)), message)
     }
 
-    /// The machine of this point, loaded once.
+    /// The machine of this point: its file is read once, and each change of it made once.
     fn machine(&mut self, point: &Point, typed: &Experiment) -> Result<usize, Fault> {
-        let found = find(self.folder, Shelf::Machines, &typed.machine)
-            .map_err(|message| self.fault(point, "machine", message))?;
-        if let Some(loaded) = self.machines.iter().position(|m| m.path == found.path) {
-            return Ok(loaded);
+        let choice = &typed.machine;
+        let key = serde_json::to_string(choice).unwrap_or_default();
+        if let Some(&known) = self.machine_of.get(&key) {
+            return Ok(known);
         }
-        let MachineFile { machine, digests, .. } = simulator::load_machine(&found)?;
-        self.machines.push(Equipment { machine, path: found.path, digests });
+        let changes = choice.changes();
+        let field = if changes.is_some() { "machine.extends" } else { "machine" };
+        let found = find(self.folder, Shelf::Machines, choice.name())
+            .map_err(|message| self.fault(point, field, message))?;
+        let file = match self.machine_files.get(&found.path) {
+            Some(file) => file,
+            None => {
+                let file = MachineFile::load(&found)?;
+                self.machine_files.entry(found.path.clone()).or_insert(file)
+            }
+        };
+        let digests = file.digests.clone();
+        let (machine, at) = match changes {
+            None => (Ok(file.machine.clone()), None),
+            Some(changes) => (file.changed(changes), Some(choice)),
+        };
+        let checked = machine.and_then(|machine| {
+            simulator::check_machine(&machine)?;
+            Ok(machine)
+        });
+        let machine = checked.map_err(|fault| match at {
+            None => Fault { file: found.path.display().to_string(), ..fault },
+            Some(choice) => {
+                let place = self.sweep.place_in_file(point, choice.place(&fault.place));
+                self.document.fault(&place, fault.message)
+            }
+        })?;
+        self.machines.push(Equipment { machine, digests });
+        self.machine_of.insert(key, self.machines.len() - 1);
         Ok(self.machines.len() - 1)
     }
 
@@ -251,9 +287,9 @@ impl Planner<'_> {
         checked.map_err(|(field, message)| self.fault(point, field, message))?;
         let Some(name) = accuracy.sweep.as_ref() else { return Ok(()) };
         if !self.sweeps.contains_key(name) {
-            let read = read_sweep(self.folder, name)
+            let sweep = read_sweep(self.folder, name)
                 .map_err(|message| self.fault(point, "accuracy.sweep", message))?;
-            self.sweeps.insert(name.clone(), read);
+            self.sweeps.insert(name.clone(), sweep);
         }
         Ok(())
     }
@@ -369,7 +405,7 @@ impl Planner<'_> {
     /// The experiment file with every default filled in: a file that says the same.
     fn resolved(&self, first: &Experiment) -> Value {
         let mut resolved = self.document.value.clone();
-        json::fill(&mut resolved, serde_json::to_value(first).unwrap_or_default());
+        fill(&mut resolved, serde_json::to_value(first).unwrap_or_default());
         resolved
     }
 

@@ -1,10 +1,9 @@
 //! Plots that an experiment asks for.
 
+use config::{Document, Fault, Place, unknown};
+
 use crate::experiment::fields::Plot;
-use crate::files::document::Document;
-use crate::files::fault::{Fault, unknown};
 use crate::files::file::{PLAIN, is_plain};
-use crate::files::place::Place;
 use crate::planning::plan::Plan;
 use crate::table::columns;
 use crate::table::measure::Measure;

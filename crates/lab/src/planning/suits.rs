@@ -3,9 +3,8 @@
 use multicomputer::Machine;
 
 use crate::engine::knobs;
-use crate::engine::network;
 use crate::experiment::fields::Experiment;
-use crate::files::fault::WrongField;
+use crate::files::WrongField;
 
 /// More local environments can only be a slip.
 const MOST_ENVIRONMENTS: u32 = 65_536;
@@ -35,23 +34,10 @@ pub fn suits(typed: &Experiment, machine: &Machine) -> Result<(), WrongField> {
         );
         return Err(("processors", message));
     }
-    if let Some((field, what)) = lacks(machine, typed) {
-        let message = format!("the {what} of \"{}\" is not modelled", typed.machine);
-        let section = if field == "count_start_up" { "start_up" } else { field };
-        let message = message + &format!("; expected a machine whose file has \"{section}\"");
-        return Err((field, message));
+    if machine.start_up.is_none() && typed.count_start_up {
+        let message = format!("the start-up of \"{}\" is not modelled", typed.machine);
+        let message = message + "; expected a machine whose file has \"start_up\"";
+        return Err(("count_start_up", message));
     }
-    network::check(machine, typed.network).map_err(|error| ("network", error.to_string()))?;
     knobs::check(typed)
-}
-
-/// The first field that asks for what a machine does not model, and what that is.
-fn lacks(machine: &Machine, typed: &Experiment) -> Option<(&'static str, &'static str)> {
-    if machine.node_memory.is_none() && !typed.node_memory.is_empty() {
-        return Some(("node_memory", "memory"));
-    }
-    if machine.display.is_none() && !typed.display.is_empty() {
-        return Some(("display", "display"));
-    }
-    (machine.start_up.is_none() && typed.count_start_up).then_some(("count_start_up", "start-up"))
 }

@@ -4,16 +4,14 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
+use config::{Document, Fault, Place, read, unreadable};
 use serde_json::{Map, Value, json};
 use viewer::ReportParts;
 
 use crate::engine::simulator::On;
 use crate::experiment::fields::Plot;
 use crate::files::digest::sha256;
-use crate::files::document::Document;
-use crate::files::fault::Fault;
 use crate::files::file::{self, PLAIN, is_plain};
-use crate::files::place::Place;
 use crate::host::host_clock::HostTimes;
 use crate::planning::plan::Plan;
 use crate::results::chart;
@@ -69,13 +67,15 @@ impl Results {
         }
         let plots = &document.value["experiment"]["plots"];
         let place = Place::of("experiment.plots");
-        for plot in document.typed::<Vec<Plot>>(plots, |_| place.clone())? {
+        let plots =
+            read::<Vec<Plot>>(plots).map_err(|fault| document.fault(&place, fault.message))?;
+        for plot in plots {
             if !is_plain(&plot.stem()) {
                 let message = format!("\"{}\" names a file; expected {PLAIN}", plot.stem());
                 return Err(document.fault(&place, message));
             }
         }
-        let table = Table::from_csv(&bytes).map_err(|error| file::unreadable(&csv, error))?;
+        let table = Table::from_csv(&bytes).map_err(|error| unreadable(&csv, error))?;
         // What was recorded stands nowhere but in the report.
         let report = fs::read_to_string(folder.join("report.html")).ok();
         let recorded = report.and_then(|html| ReportParts::in_report(&html));

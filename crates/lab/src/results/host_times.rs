@@ -3,10 +3,10 @@
 
 use std::path::Path;
 
+use config::Document;
 use serde_json::Value;
 
 use crate::experiment::fields::Plot;
-use crate::files::document::Document;
 use crate::table::columns::{HOST, HOST_TIMES};
 use crate::table::runs_csv::Table;
 

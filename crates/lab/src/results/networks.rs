@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use multicomputer::NetworkModel;
 
+use crate::experiment::machine::NETWORK_MODEL;
 use crate::planning::plan::{Plan, Run, all_else};
 use crate::run::runner::{Ending, Endings};
 
@@ -15,7 +16,7 @@ pub type Finest = BTreeMap<Vec<usize>, (NetworkModel, f64)>;
 pub fn finest(plan: &Plan, endings: &Endings) -> Finest {
     let mut finest = Finest::new();
     for (run, rung, time) in timed(plan, endings) {
-        let found = finest.entry(all_else(plan, run, "network")).or_insert((rung, time));
+        let found = finest.entry(all_else(plan, run, NETWORK_MODEL)).or_insert((rung, time));
         if rung > found.0 {
             *found = (rung, time);
         }
@@ -44,7 +45,8 @@ fn of(ending: &Ending) -> Option<(NetworkModel, f64)> {
 /// of the host; empty if no sweep goes over networks. Shots are kept from run to run, so that the
 /// models that come first pay for them.
 pub fn text(plan: &Plan, endings: &Endings) -> String {
-    let Some(axis) = plan.axes.iter().position(|axis| axis.place.to_string() == "network") else {
+    let Some(axis) = plan.axes.iter().position(|axis| axis.place.to_string() == NETWORK_MODEL)
+    else {
         return String::new();
     };
     let finest = finest(plan, endings);
@@ -55,7 +57,7 @@ pub fn text(plan: &Plan, endings: &Endings) -> String {
         for (run, (ending, host)) in runs.filter(|(run, _)| run.index[axis] == item) {
             seconds += host.map_or(0.0, |host| host.cpu_s);
             let time = ending.as_ref().and_then(of).map(|(_, time)| time);
-            let best = finest.get(&all_else(plan, run, "network"));
+            let best = finest.get(&all_else(plan, run, NETWORK_MODEL));
             if let Some((time, (_, best))) = time.zip(best) {
                 farthest = farthest.max(((time - best) / best).abs());
             }

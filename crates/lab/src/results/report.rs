@@ -5,11 +5,11 @@ use std::fmt::Write;
 use serde_json::Value;
 use viewer::ReportParts;
 
-use crate::experiment::fields::experiment_schema;
+use crate::experiment::schema::experiment_schema;
+use crate::experiment::sweep::in_words;
 use crate::results::console::{Line, lines};
 use crate::results::summary::Summary;
 use crate::table::cheapest;
-use crate::table::columns;
 use crate::table::runs_csv::Table;
 
 const STYLE: &str = include_str!("report.css");
@@ -57,7 +57,7 @@ pub fn html(
          that gives these results again.</p>\n<pre>{experiment}</pre>\n\
          <h2>Files</h2>\n{files}{data}"
     );
-    page(&columns::cell(&manifest["title"]), &viewer_style, &body)
+    page(&in_words(&manifest["title"]), &viewer_style, &body)
 }
 
 /// A page in the report's style, and some more.
@@ -85,8 +85,8 @@ fn lead(manifest: &Value, runs: &Table) -> String {
         _ => "on a simulated machine; times are virtual",
     };
     let runs = runs.rows.len();
-    let version = escape(&columns::cell(&manifest["virtwall"]));
-    let seed = escape(&columns::cell(&manifest["seed"]));
+    let version = escape(&in_words(&manifest["virtwall"]));
+    let seed = escape(&in_words(&manifest["seed"]));
     let plural = if runs == 1 { "" } else { "s" };
     format!("<p class=\"lead\">{runs} run{plural} {on}. Virtwall {version}, seed {seed}.</p>\n")
 }
@@ -109,7 +109,7 @@ fn warnings(manifest: &Value, runs: &Table) -> String {
 }
 
 fn texts(list: &Value) -> Vec<String> {
-    list.as_array().into_iter().flatten().map(columns::cell).collect()
+    list.as_array().into_iter().flatten().map(in_words).collect()
 }
 
 fn list(title: &str, class: &str, items: &[String]) -> String {
@@ -214,10 +214,8 @@ fn collect_choices(schema: &Value, value: &Value, path: &str, rows: &mut Vec<Cho
         if let Some(number) = choice_number(about) {
             let here = match &value[name] {
                 Value::Null => "default".to_owned(),
-                Value::Array(items) => {
-                    items.iter().map(columns::cell).collect::<Vec<_>>().join(", ")
-                }
-                one => columns::cell(one),
+                Value::Array(items) => items.iter().map(in_words).collect::<Vec<_>>().join(", "),
+                one => in_words(one),
             };
             rows.push((number, path.clone(), here, about.to_owned()));
         }
@@ -234,14 +232,14 @@ fn problems(manifest: &Value) -> String {
     let problems = manifest["problems"].as_array().map_or(&[][..], Vec::as_slice);
     let Some(first) = problems.first().and_then(Value::as_object) else { return String::new() };
     let names: Vec<&str> = first.keys().map(String::as_str).collect();
-    let cells = |problem: &Value| names.iter().map(|&name| columns::cell(&problem[name])).collect();
+    let cells = |problem: &Value| names.iter().map(|&name| in_words(&problem[name])).collect();
     let columns = names.iter().map(|&name| name.to_owned()).collect();
     table(&names, &Table { columns, rows: problems.iter().map(cells).collect() })
 }
 
 fn files(manifest: &Value) -> String {
     let row = |(name, digest): (&String, &Value)| {
-        let digest = columns::cell(digest);
+        let digest = in_words(digest);
         format!("<tr><td>{}</td><td><code>{}</code></td></tr>\n", escape(name), escape(&digest))
     };
     let rows: String = manifest["files"].as_object().into_iter().flatten().map(row).collect();

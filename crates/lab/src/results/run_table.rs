@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 
 use crate::experiment::fields::Experiment;
+use crate::experiment::machine::NETWORK_MODEL;
+use crate::experiment::sweep::in_words;
 use crate::planning::plan::{Plan, Run, all_else};
 use crate::results::networks;
 use crate::run::runner::{Ending, Endings};
@@ -38,12 +40,12 @@ pub fn run_table(plan: &Plan, endings: &Endings) -> Table {
             speed_up: over(&one_processor, "processors"),
             gain: over(&one_environment, "local_environments"),
             difference_from_finest: finest
-                .get(&all_else(plan, run, "network"))
+                .get(&all_else(plan, run, NETWORK_MODEL))
                 .and_then(difference),
         };
         let cell = |(name, column): (&String, &Option<&Column>)| match column {
             Some(column) => row.cell(column),
-            None => plan.swept(run, name).map_or(String::new(), columns::cell),
+            None => plan.swept(run, name).map_or(String::new(), in_words),
         };
         header.iter().zip(&cells).map(cell).collect()
     };

@@ -1,9 +1,9 @@
 //! What a plot shows: points of simulated and published figures, line by line.
 
 use crate::experiment::fields::Plot;
+use crate::experiment::sweep::in_words;
 use crate::results::pareto;
 use crate::results::power_law::PowerLaw;
-use crate::table::columns;
 use crate::table::measure::Measure;
 use crate::table::runs_csv::Table;
 
@@ -117,7 +117,7 @@ fn name(table: &Table, row: &[String], sweeps: &[String], plot: &Plot) -> String
 
 /// Whether a run is one of those that a plot marks.
 fn marked(table: &Table, row: &[String], plot: &Plot) -> bool {
-    let same = |(name, value): (&String, _)| table.cell(row, name) == columns::cell(value);
+    let same = |(name, value): (&String, _)| table.cell(row, name) == in_words(value);
     !plot.mark.is_empty() && plot.mark.iter().all(same)
 }
 

@@ -311,7 +311,7 @@ impl Desk<'_> {
         let of = &self.plan.runs[index];
         let machine = &self.plan.machines[of.machine].machine;
         let watched = self.options.feed.is_some() || self.filmed[index];
-        let costs_nothing = watched || !network::is_open(machine, of.point.network);
+        let costs_nothing = watched || !network::is_open(machine);
         (self.options.pulse && costs_nothing).then(|| {
             let watch = Arc::clone(&self.watch);
             let tell = move |pulse| watch(Event::Pulse { run: index, pulse });

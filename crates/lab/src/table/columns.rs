@@ -226,7 +226,7 @@ fn always(_: &Input) -> bool {
 }
 
 fn on_network(run: &Input) -> bool {
-    network::tells(run.machine, run.point.network)
+    network::tells(run.machine, run.point)
 }
 
 fn on_memory(run: &Input) -> bool {
@@ -315,15 +315,6 @@ pub fn drawable(columns: &[&Column], axes: &[Axis]) -> Vec<String> {
     let counts = simulator::operations().map(|count| OPERATIONS[1].to_owned() + count);
     let host = HOST_TIMES.iter().map(|time| HOST.to_owned() + time);
     header(columns, axes).into_iter().chain(counts).chain(host).collect()
-}
-
-/// A swept value as a cell.
-pub fn cell(value: &Value) -> String {
-    match value {
-        Value::Null => String::new(),
-        Value::String(text) => text.clone(),
-        other => other.to_string(),
-    }
 }
 
 /// What the columns of runs.csv hold, as a Table Schema (specs.frictionlessdata.io/table-schema).

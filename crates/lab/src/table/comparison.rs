@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use crate::files::fault::Fault;
+use config::Fault;
+
 use crate::files::file;
 
 /// Published times and speed-ups, as the file writes them, by scene and processors.

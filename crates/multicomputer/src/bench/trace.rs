@@ -3,13 +3,12 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use desim::Time;
+use config::{Document, Fault, Place, Quantity, read, refuse_unknown_keys, schema};
+use desim::{Duration, Time};
 use petgraph::algo::tarjan_scc;
 use petgraph::graph::{DiGraph, NodeIndex};
 use schemars::JsonSchema;
 use serde::Deserialize;
-
-use crate::file::{MachineFault, Quantity, Time as Seconds, read};
 
 /// Longest message, bytes: a longer one must be a mistake.
 const MOST_BYTES: u64 = 1_000_000_000;
@@ -47,7 +46,7 @@ struct MessageFile {
     /// A unique name or number, without spaces, commas and quotes.
     id: Id,
     /// When it is sent, such as "0 us"; later if it has to wait for others, or if its node is busy.
-    at: Quantity<Seconds>,
+    at: Quantity<config::Time>,
     /// The node that sends it: compute nodes from 0, then service nodes.
     from: u64,
     /// The node that receives it.
@@ -86,24 +85,26 @@ impl Trace {
     /// Reads a trace's text, for a machine of `nodes` nodes; `file_name` is for messages only.
     ///
     /// # Errors
-    /// [`MachineFault`], with file, message, field, value and what was expected.
-    pub fn from_json(text: &str, file_name: &str, nodes: usize) -> Result<Trace, MachineFault> {
-        let checked = read::<Vec<MessageFile>>(text).and_then(|items| check(&items, nodes));
-        checked.map_err(|fault| MachineFault { file: file_name.to_owned(), ..fault })
+    /// [`Fault`], with file, message, field, value and what was expected.
+    pub fn from_json(text: &str, file_name: &str, nodes: usize) -> Result<Trace, Fault> {
+        let document = Document::parse(file_name, text.to_owned())?;
+        refuse_unknown_keys(&schema::of::<Vec<MessageFile>>(), &document.value)
+            .and_then(|()| check(&read::<Vec<MessageFile>>(&document.value)?, nodes))
+            .map_err(|fault| document.locate(fault))
     }
 }
 
-fn check(items: &[MessageFile], nodes: usize) -> Result<Trace, MachineFault> {
+fn check(items: &[MessageFile], nodes: usize) -> Result<Trace, Fault> {
     let mut numbers = BTreeMap::new();
     for (index, item) in items.iter().enumerate() {
-        let (id, place) = (item.id.to_string(), format!("[{index}].id"));
+        let (id, place) = (item.id.to_string(), Place::default().item(index).key("id"));
         if id.is_empty() || id.contains(|c: char| c.is_whitespace() || ",\"'".contains(c)) {
             let message = format!("found \"{id}\"; expected a name without spaces, commas, quotes");
-            return Err(MachineFault::at(place, message));
+            return Err(Fault::at(place, message));
         }
         if let Some(first) = numbers.insert(id.clone(), index) {
             let message = format!("found \"{id}\", the id of [{first}]; expected one of its own");
-            return Err(MachineFault::at(place, message));
+            return Err(Fault::at(place, message));
         }
     }
     let items = items.iter().enumerate();
@@ -115,7 +116,7 @@ fn check(items: &[MessageFile], nodes: usize) -> Result<Trace, MachineFault> {
             let names = circle.iter().map(|&i| format!("\"{}\"", trace.messages[i].name));
             let names = names.collect::<Vec<_>>().join(" after ");
             let message = format!("found a circle, {names}; expected messages that can be sent");
-            Err(MachineFault::at(format!("[{}].after", circle[0]), message))
+            Err(Fault::at(Place::default().item(circle[0]).key("after"), message))
         }
     }
 }
@@ -126,21 +127,25 @@ fn checked(
     item: &MessageFile,
     nodes: usize,
     numbers: &BTreeMap<String, usize>,
-) -> Result<TraceMessage, MachineFault> {
-    let refuse = |field: &str, found: &dyn fmt::Display, expected: String| {
-        let message = format!("found {found}; expected {expected}");
-        Err(MachineFault::at(format!("[{index}].{field}"), message))
+) -> Result<TraceMessage, Fault> {
+    let place = |field| Place::default().item(index).key(field);
+    let refuse = |place: Place, found: &dyn fmt::Display, expected: String| {
+        Err(Fault::at(place, format!("found {found}; expected {expected}")))
     };
     for (field, node) in [("from", item.from), ("to", item.to)] {
         if node >= nodes as u64 {
-            return refuse(field, &node, format!("a node, 0 to {}", nodes - 1));
+            return refuse(place(field), &node, format!("a node, 0 to {}", nodes - 1));
         }
     }
     if item.bytes > MOST_BYTES {
-        return refuse("bytes", &item.bytes, format!("at most {MOST_BYTES}"));
+        return refuse(place("bytes"), &item.bytes, format!("at most {MOST_BYTES}"));
     }
-    if item.at.si > LATEST {
-        return refuse("at", &format!("{} s", item.at.si), format!("at most {LATEST} s"));
+    if item.at.value() > LATEST {
+        return refuse(
+            place("at"),
+            &format!("{} s", item.at.value()),
+            format!("at most {LATEST} s"),
+        );
     }
     let mut after = Vec::new();
     for (i, id) in item.after.iter().enumerate() {
@@ -148,13 +153,13 @@ fn checked(
             Some(&number) => after.push(number),
             None => {
                 let found = format!("\"{id}\"");
-                return refuse(&format!("after[{i}]"), &found, "the id of a message".to_owned());
+                return refuse(place("after").item(i), &found, "the id of a message".to_owned());
             }
         }
     }
     after.sort_unstable();
     after.dedup();
-    let at = Time::ZERO + item.at.duration();
+    let at = Time::ZERO + Duration::from_seconds_f64(item.at.value());
     let (from, to) = (item.from as usize, item.to as usize);
     Ok(TraceMessage { name: item.id.to_string(), at, from, to, bytes: item.bytes, after })
 }

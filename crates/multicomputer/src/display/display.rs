@@ -1,12 +1,13 @@
 //! From the service node to a display: the processor that makes frames, the Ethernet that carries them, and
 //! the display that shows them.
 
+use config::{Bandwidth, Bytes, Fault, Quantity, Time};
 use desim::Duration;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::ethernet::{Ethernet, EthernetFile};
-use crate::file::{Bandwidth, Bytes, MachineFault, Quantity, Sourced, Time, whole_bytes};
+use crate::sourced::{Sourced, whole_bytes};
 
 /// The path of an update from a compute node to a display:
 ///
@@ -106,15 +107,15 @@ struct ConsumerFile {
 }
 
 impl DisplayFile {
-    pub(crate) fn check(&self) -> Result<Display, MachineFault> {
+    pub(crate) fn check(&self) -> Result<Display, Fault> {
         Ok(Display {
-            frame_time: self.service.frame_time.value.duration(),
-            copy_bandwidth: self.service.copy_bandwidth.value.si,
+            frame_time: self.service.frame_time.duration(),
+            copy_bandwidth: self.service.copy_bandwidth.si(),
             service_buffers: whole_bytes("display.service_buffers", &self.service_buffers)?,
             when_full: self.when_full,
             ethernet: self.ethernet.check()?,
             window: whole_bytes("display.window", &self.window)?,
-            update_time: self.consumer.update_time.value.duration(),
+            update_time: self.consumer.update_time.duration(),
         })
     }
 }

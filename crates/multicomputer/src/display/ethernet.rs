@@ -1,10 +1,11 @@
 //! An Ethernet: a medium that carries one frame at a time.
 
+use config::{Bandwidth, Bytes, Fault, Quantity};
 use desim::Duration;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::file::{Bandwidth, Bytes, MachineFault, Quantity, Sourced, whole_bytes};
+use crate::sourced::{Sourced, whole_bytes};
 
 /// An Ethernet without other senders, so without collisions. Frames are not padded to the minimum length.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,11 +44,11 @@ pub(crate) struct EthernetFile {
 }
 
 impl EthernetFile {
-    pub(crate) fn check(&self) -> Result<Ethernet, MachineFault> {
+    pub(crate) fn check(&self) -> Result<Ethernet, Fault> {
         Ok(Ethernet {
-            bandwidth: self.bandwidth.value.si,
+            bandwidth: self.bandwidth.si(),
             payload: whole_bytes("display.ethernet.payload", &self.payload)?,
-            overhead: self.overhead.value.si.round() as u64,
+            overhead: self.overhead.si().round() as u64,
         })
     }
 }

@@ -1,7 +1,8 @@
 //! Checks the caches of a machine file.
 
+use config::{Fault, Place};
+
 use super::file::{CachesFile, TranslationsFile};
-use crate::file::MachineFault;
 use crate::node::CacheLevel;
 
 /// Largest line and cache, bytes: larger ones must be mistakes.
@@ -10,7 +11,7 @@ const LARGEST_CACHE: u64 = 1 << 30;
 
 /// The levels of a machine file. A line and a number of sets must be powers of two, and a line at least
 /// as long as those of the level before.
-pub(crate) fn levels(files: &CachesFile) -> Result<Vec<CacheLevel>, MachineFault> {
+pub(crate) fn levels(files: &CachesFile) -> Result<Vec<CacheLevel>, Fault> {
     let mut levels: Vec<CacheLevel> = Vec::new();
     let secondary = files.secondary.as_ref().map(|file| ("secondary", file));
     for (cache, file) in [("primary", &files.primary)].into_iter().chain(secondary) {
@@ -21,25 +22,25 @@ pub(crate) fn levels(files: &CachesFile) -> Result<Vec<CacheLevel>, MachineFault
             }
             let place = format!("processor.caches.{cache}.{name}.value");
             let expected = format!("expected {unit} B times a power of two, at most {most} B");
-            Err(MachineFault::at(&place, format!("found {found} B; {expected}")))
+            Err(Fault::at(Place::of(&place), format!("found {found} B; {expected}")))
         };
         let ways = u64::from(file.ways.value.get());
         let shortest = levels.last().map_or(1, |level| level.line);
-        let line = bytes("line", file.line.value.si, shortest, LONGEST_LINE)?;
-        let size = bytes("size", file.size.value.si, line * ways, LARGEST_CACHE)?;
-        levels.push(CacheLevel { size, line, ways, miss_time: file.miss_time.value.si });
+        let line = bytes("line", file.line.si(), shortest, LONGEST_LINE)?;
+        let size = bytes("size", file.size.si(), line * ways, LARGEST_CACHE)?;
+        levels.push(CacheLevel { size, line, ways, miss_time: file.miss_time.si() });
     }
     Ok(levels)
 }
 
 /// The translation look-aside buffer, as a fully associative cache of pages.
-pub(crate) fn translations(file: &TranslationsFile) -> Result<CacheLevel, MachineFault> {
-    let (page, ways) = (file.page.value.si, u64::from(file.entries.value.get()));
+pub(crate) fn translations(file: &TranslationsFile) -> Result<CacheLevel, Fault> {
+    let (page, ways) = (file.page.si(), u64::from(file.entries.value.get()));
     if page > LONGEST_LINE as f64 || page.fract() != 0.0 || !(page as u64).is_power_of_two() {
         let expected = format!("expected a power of two, at most {LONGEST_LINE} B");
         let message = format!("found {page} B; {expected}");
-        return Err(MachineFault::at("processor.caches.translations.page.value", message));
+        return Err(Fault::at(Place::of("processor.caches.translations.page.value"), message));
     }
     let line = page as u64;
-    Ok(CacheLevel { size: line * ways, line, ways, miss_time: file.miss_time.value.si })
+    Ok(CacheLevel { size: line * ways, line, ways, miss_time: file.miss_time.si() })
 }

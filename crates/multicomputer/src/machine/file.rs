@@ -2,16 +2,18 @@
 
 use std::collections::BTreeMap;
 use std::num::{NonZeroU8, NonZeroU16};
+use std::sync::LazyLock;
 
+use config::{Bandwidth, Bytes, Cycles, Frequency, Quantity, Time, schema};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use serde_json::Value;
 
 use crate::display::DisplayFile;
-use crate::file::without_repetition;
-use crate::file::{Bandwidth, Bytes, Cycles, Frequency, Positive, Quantity, Sourced, Time};
 use crate::network::ModelChoice;
 use crate::node::MessageLayerFile;
 use crate::node::StartUpFile;
+use crate::sourced::{Positive, Sourced};
 
 /// A distributed-memory machine: compute nodes and service nodes on a mesh, a torus, a crossbar or a
 /// bus. Every number says how it is known and where it comes from.
@@ -108,7 +110,6 @@ pub(crate) struct ProcessorFile {
     /// Factor on all cycle counts: compiled code is slower than operations counted by hand.
     pub(crate) scale: Sourced<Positive>,
     /// Cycles of each operation that the kernels count.
-    #[serde(deserialize_with = "without_repetition")]
     pub(crate) operations: BTreeMap<String, Sourced<Quantity<Cycles>>>,
     /// Data caches. Without them misses cost nothing but what the cycles of the operations hold already.
     pub(crate) caches: Option<CachesFile>,
@@ -175,7 +176,6 @@ pub(crate) struct NodeMemoryFile {
     /// Bytes a second at which the others follow.
     pub(crate) bandwidth: Sourced<Quantity<Bandwidth>>,
     /// Bytes of each thing that programs keep.
-    #[serde(deserialize_with = "without_repetition")]
     pub(crate) sizes: BTreeMap<String, Sourced<Quantity<Bytes>>>,
 }
 
@@ -225,8 +225,11 @@ pub(crate) struct LinksFile {
     pub(crate) virtual_channels: Sourced<NonZeroU8>,
 }
 
+/// The fields of a machine file, as a schema without references.
+pub(crate) static FIELDS: LazyLock<Value> = LazyLock::new(schema::of::<MachineFile>);
+
 /// The JSON Schema of a machine file. One that extends another need not say everything.
-pub fn machine_schema() -> serde_json::Value {
+pub fn machine_schema() -> Value {
     let mut schema = schemars::schema_for!(MachineFile).to_value();
     if let Some(schema) = schema.as_object_mut()
         && let Some(required) = schema.remove("required")

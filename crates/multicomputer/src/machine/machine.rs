@@ -1,18 +1,21 @@
 //! A machine, as its file describes it, checked once at the door.
 
+use config::{Bytes, Document, Fault, Place as Field, Quantity, read, refuse_unknown_keys};
+use serde_json::Value;
 use thiserror::Error;
 
 use super::caches as cache;
-use super::file::{LinksFile, LogGpFile, MachineFile, NetworkFile, NodeMemoryFile, ProcessorFile};
+use super::file::{
+    FIELDS, LinksFile, LogGpFile, MachineFile, NetworkFile, NodeMemoryFile, ProcessorFile,
+};
 use crate::display::{Display, DisplayFile};
-use crate::file::{Bytes, Quantity};
-use crate::file::{MachineFault, read};
 use crate::network::{LinkParameters, LogGpParameters, Network, NetworkModel, NetworkParameters};
 use crate::network::{Place, Shape, Topology};
 use crate::node::MessageLayer;
 use crate::node::NodeMemory;
 use crate::node::Processor;
 use crate::node::{StartUp, StartUpFile};
+use crate::sourced::Sourced;
 
 /// Largest network, in places: beyond it a file can only be a slip.
 const MOST_PLACES: u32 = 65_536;
@@ -64,7 +67,7 @@ pub struct Published {
 pub enum MachineError {
     /// The machine's file is at fault.
     #[error("{0}")]
-    File(MachineFault),
+    File(Fault),
     /// More processes than nodes.
     #[error(
         "found {asked} compute processes; expected at most {available}, the compute nodes of the \
@@ -99,9 +102,17 @@ impl Machine {
     /// # Errors
     /// [`MachineError::File`], which names file, place, value and what was expected.
     pub fn from_json(text: &str, file_name: &str) -> Result<Machine, MachineError> {
-        read(text).and_then(validate).map_err(|fault| {
-            MachineError::File(MachineFault { file: file_name.to_owned(), ..fault })
-        })
+        let document = Document::parse(file_name, text.to_owned()).map_err(MachineError::File)?;
+        Machine::of(&document.value).map_err(|fault| MachineError::File(document.locate(fault)))
+    }
+
+    /// Reads what a machine file says, with all that it extends.
+    ///
+    /// # Errors
+    /// The field at fault, what was found and what was expected; the file is left open.
+    pub fn of(file: &Value) -> Result<Machine, Fault> {
+        refuse_unknown_keys(&FIELDS, file)?;
+        validate(read(file)?)
     }
 
     /// How the nodes are joined.
@@ -166,7 +177,7 @@ impl Machine {
 }
 
 /// The machine, if its nodes have room on its network and that is fully described.
-fn validate(file: MachineFile) -> Result<Machine, MachineFault> {
+fn validate(file: MachineFile) -> Result<Machine, Fault> {
     if let Some(base) = &file.extends {
         let message = format!("found \"{base}\"; expected a whole machine, with that one's fields");
         return refuse("extends", message);
@@ -180,8 +191,8 @@ fn validate(file: MachineFile) -> Result<Machine, MachineFault> {
     let display = file.display.as_ref().map(DisplayFile::check).transpose()?;
     let start_up = file.start_up.map(StartUpFile::check).transpose()?;
     let published = Published {
-        latency: file.published.latency.map(|latency| latency.value.duration()),
-        bandwidth: file.published.bandwidth.map(|bandwidth| bandwidth.value.si),
+        latency: file.published.latency.map(|latency| latency.duration()),
+        bandwidth: file.published.bandwidth.map(|bandwidth| bandwidth.si()),
     };
     Ok(Machine {
         title,
@@ -199,12 +210,12 @@ fn validate(file: MachineFile) -> Result<Machine, MachineFault> {
     })
 }
 
-fn refuse<T>(place: &str, message: impl Into<String>) -> Result<T, MachineFault> {
-    Err(MachineFault::at(place, message))
+fn refuse<T>(place: &str, message: impl Into<String>) -> Result<T, Fault> {
+    Err(Fault::at(Field::of(place), message))
 }
 
 /// How the nodes are joined, and the time of a hop.
-fn shape(file: &MachineFile) -> Result<(Shape, desim::Duration), MachineFault> {
+fn shape(file: &MachineFile) -> Result<(Shape, desim::Duration), Fault> {
     let (compute, service) = (file.compute_nodes.value.get(), file.service_nodes.value.get());
     let nodes = u32::from(compute) + u32::from(service);
     let mut found = Vec::new();
@@ -224,7 +235,7 @@ fn shape(file: &MachineFile) -> Result<(Shape, desim::Duration), MachineFault> {
             "mesh" => Shape::Mesh { width, height },
             _ => Shape::Torus { width, height },
         };
-        found.push((name, shape, grid.hop_time.value.duration()));
+        found.push((name, shape, grid.hop_time.duration()));
     }
     let hubs = [
         ("crossbar", &file.crossbar, Shape::Crossbar { places: nodes }),
@@ -232,7 +243,7 @@ fn shape(file: &MachineFile) -> Result<(Shape, desim::Duration), MachineFault> {
     ];
     for (name, hub, shape) in hubs {
         let hub = hub.as_ref();
-        found.extend(hub.map(|hub| (name, shape, hub.hop_time.value.duration())));
+        found.extend(hub.map(|hub| (name, shape, hub.hop_time.duration())));
     }
     match found[..] {
         [(_, shape, hop_time)] => Ok((shape, hop_time)),
@@ -247,7 +258,7 @@ fn shape(file: &MachineFile) -> Result<(Shape, desim::Duration), MachineFault> {
 fn network(
     file: &NetworkFile,
     hop_time: desim::Duration,
-) -> Result<(Option<NetworkModel>, NetworkParameters), MachineFault> {
+) -> Result<(Option<NetworkModel>, NetworkParameters), Fault> {
     let software = file.parameters.as_ref().map(|parameters| loggp(parameters, hop_time));
     let links = match (&file.links, &software) {
         (Some(file), Some(software)) => Some(links(file, software)?),
@@ -264,8 +275,8 @@ fn network(
     Ok((model, NetworkParameters { software, links }))
 }
 
-fn links(file: &LinksFile, software: &LogGpParameters) -> Result<LinkParameters, MachineFault> {
-    let (bandwidth, flit) = (file.bandwidth.value.si, file.flit.value.si);
+fn links(file: &LinksFile, software: &LogGpParameters) -> Result<LinkParameters, Fault> {
+    let (bandwidth, flit) = (file.bandwidth.si(), file.flit.si());
     if bandwidth < software.bandwidth {
         let (found, least) = (bandwidth / 1e6, software.bandwidth / 1e6);
         let message =
@@ -297,12 +308,12 @@ fn links(file: &LinksFile, software: &LogGpParameters) -> Result<LinkParameters,
     Ok(links)
 }
 
-fn processor(file: ProcessorFile) -> Result<Processor, MachineFault> {
-    let cycles = file.operations.into_iter().map(|(name, cycles)| (name, cycles.value.si));
+fn processor(file: ProcessorFile) -> Result<Processor, Fault> {
+    let cycles = file.operations.into_iter().map(|(name, cycles)| (name, cycles.si()));
     let translations = file.caches.as_ref().and_then(|caches| caches.translations.as_ref());
     Ok(Processor {
         translations: translations.map(cache::translations).transpose()?,
-        clock: file.clock.value.si,
+        clock: file.clock.si(),
         scale: file.scale.value.0,
         cycles: cycles.collect(),
         caches: file.caches.as_ref().map_or(Ok(Vec::new()), cache::levels)?,
@@ -310,35 +321,35 @@ fn processor(file: ProcessorFile) -> Result<Processor, MachineFault> {
 }
 
 /// The memory of a node, if the operating system leaves some.
-fn node_memory(file: &NodeMemoryFile) -> Result<NodeMemory, MachineFault> {
-    let bytes = |size: &Quantity<Bytes>| size.si.round() as u64;
-    let (installed, system) = (bytes(&file.installed.value), bytes(&file.system.value));
+fn node_memory(file: &NodeMemoryFile) -> Result<NodeMemory, Fault> {
+    let bytes = |size: &Sourced<Quantity<Bytes>>| size.si().round() as u64;
+    let (installed, system) = (bytes(&file.installed), bytes(&file.system));
     if system >= installed {
         let message =
             format!("found {system} B of {installed} B; expected less, so that some is left");
         return refuse("node_memory.system.value", message);
     }
-    let burst = bytes(&file.burst.value);
+    let burst = bytes(&file.burst);
     if burst == 0 {
         return refuse("node_memory.burst.value", "found 0 B; expected at least 1 B");
     }
-    if let Some((name, size)) = file.sizes.iter().find(|(_, s)| bytes(&s.value) > LARGEST_THING) {
-        let found = format!("found {} B; expected at most 1 GB", size.value.si);
+    if let Some((name, size)) = file.sizes.iter().find(|(_, s)| bytes(s) > LARGEST_THING) {
+        let found = format!("found {} B; expected at most 1 GB", size.si());
         return refuse(&format!("node_memory.sizes.{name}.value"), found);
     }
-    let sizes = file.sizes.iter().map(|(name, size)| (name.clone(), bytes(&size.value)));
+    let sizes = file.sizes.iter().map(|(name, size)| (name.clone(), bytes(size)));
     Ok(NodeMemory {
         available: installed - system,
-        message_buffers: bytes(&file.message_buffers.value),
+        message_buffers: bytes(&file.message_buffers),
         burst,
-        fault_time: file.fault_time.value.duration(),
-        bandwidth: file.bandwidth.value.si,
+        fault_time: file.fault_time.duration(),
+        bandwidth: file.bandwidth.si(),
         sizes: sizes.collect(),
     })
 }
 
 /// What is set aside for messages in memory is what the message layer has for them.
-fn agree(memory: Option<&NodeMemory>, layer: &MessageLayer) -> Result<(), MachineFault> {
+fn agree(memory: Option<&NodeMemory>, layer: &MessageLayer) -> Result<(), Fault> {
     let (Some(memory), Some(buffers)) = (memory, layer.buffer_bytes) else { return Ok(()) };
     if memory.message_buffers == buffers {
         return Ok(());
@@ -349,11 +360,11 @@ fn agree(memory: Option<&NodeMemory>, layer: &MessageLayer) -> Result<(), Machin
 
 fn loggp(file: &LogGpFile, hop_time: desim::Duration) -> LogGpParameters {
     LogGpParameters {
-        send_overhead: file.send_overhead.value.duration(),
-        latency: file.latency.value.duration(),
+        send_overhead: file.send_overhead.duration(),
+        latency: file.latency.duration(),
         hop_time,
-        receive_overhead: file.receive_overhead.value.duration(),
-        gap: file.gap.value.duration(),
-        bandwidth: file.bandwidth.value.si,
+        receive_overhead: file.receive_overhead.duration(),
+        gap: file.gap.duration(),
+        bandwidth: file.bandwidth.si(),
     }
 }

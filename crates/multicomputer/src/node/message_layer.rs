@@ -10,11 +10,12 @@
 //! A coprocessor does all of this but the copy; the processor then only hands a message over, or takes
 //! it from there.
 
+use config::{Bandwidth, Bytes, Fault, Quantity, Time};
 use desim::Duration;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::file::{Bandwidth, Bytes, MachineFault, Quantity, Sourced, Time, whole_bytes};
+use crate::sourced::{Sourced, whole_bytes};
 
 /// A node's message layer, besides the overheads of the network model. By default it costs nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -91,16 +92,16 @@ struct CoprocessorFile {
 
 impl MessageLayerFile {
     /// Checks that sizes are whole numbers of bytes.
-    pub(crate) fn check(&self) -> Result<MessageLayer, MachineFault> {
+    pub(crate) fn check(&self) -> Result<MessageLayer, Fault> {
         let packets = self.packets.as_ref().map(|packets| {
             let bytes = whole_bytes("message_layer.packets.size", &packets.size)?;
-            Ok(Packets { bytes, time: packets.time.value.duration() })
+            Ok(Packets { bytes, time: packets.time.duration() })
         });
         let buffers = self.buffers.as_ref();
         Ok(MessageLayer {
             packets: packets.transpose()?,
-            handover: self.coprocessor.as_ref().map(|c| c.handover.value.duration()),
-            copy_bandwidth: self.copy_bandwidth.as_ref().map(|copy| copy.value.si),
+            handover: self.coprocessor.as_ref().map(|c| c.handover.duration()),
+            copy_bandwidth: self.copy_bandwidth.as_ref().map(|copy| copy.si()),
             buffer_bytes: buffers
                 .map(|bytes| whole_bytes("message_layer.buffers", bytes))
                 .transpose()?,

@@ -4,14 +4,12 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 use std::num::NonZeroU16;
 
+use config::{Bandwidth, Bytes, Cycles, Fault, Place, Quantity};
 use desim::{Duration, Time};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::file::{
-    self, Bandwidth, Bytes, Cycles, MachineFault, Quantity, Sourced, whole_bytes,
-    without_repetition,
-};
+use crate::sourced::{Sourced, whole_bytes};
 
 /// A disk's sector, bytes: a shorter request must be a mistake.
 const SECTOR: u64 = 512;
@@ -83,26 +81,25 @@ pub(crate) struct StartUpFile {
     /// Bytes a second of the disks of one I/O node.
     bandwidth: Sourced<Quantity<Bandwidth>>,
     /// Time of a request until its first byte is read.
-    access_time: Sourced<Quantity<file::Time>>,
+    access_time: Sourced<Quantity<config::Time>>,
     /// Bytes of a request, and of a stripe on one I/O node.
     request: Sourced<Quantity<Bytes>>,
     /// Cycles of each step of a node's initialisation.
-    #[serde(deserialize_with = "without_repetition")]
     operations: BTreeMap<String, Sourced<Quantity<Cycles>>>,
 }
 
 impl StartUpFile {
-    pub(crate) fn check(self) -> Result<StartUp, MachineFault> {
+    pub(crate) fn check(self) -> Result<StartUp, Fault> {
         let request = whole_bytes("start_up.request", &self.request)?;
         if request < SECTOR {
             let message = format!("found {request} B; expected at least {SECTOR} B");
-            return Err(MachineFault::at("start_up.request.value", message));
+            return Err(Fault::at(Place::of("start_up.request.value"), message));
         }
-        let cycles = self.operations.into_iter().map(|(name, cycles)| (name, cycles.value.si));
+        let cycles = self.operations.into_iter().map(|(name, cycles)| (name, cycles.si()));
         Ok(StartUp {
             io_nodes: self.io_nodes.value.get().into(),
-            bandwidth: self.bandwidth.value.si,
-            access_time: self.access_time.value.duration(),
+            bandwidth: self.bandwidth.si(),
+            access_time: self.access_time.duration(),
             request,
             cycles: cycles.collect(),
         })

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use lab::{Document, Fault};
-use schemars::{JsonSchema, Schema, SchemaGenerator, generate::SchemaSettings, json_schema};
+use config::{Document, Fault, Place, schema};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
@@ -93,8 +93,7 @@ fn object(_: &mut SchemaGenerator) -> Schema {
 
 /// The JSON schema of a case.
 pub fn case_schema() -> Value {
-    let settings = SchemaSettings::draft2020_12().with(|s| s.inline_subschemas = true);
-    Schema::to_value(settings.into_generator().into_root_schema_for::<Case>())
+    schema::of::<Case>()
 }
 
 impl Case {
@@ -104,9 +103,8 @@ impl Case {
     /// The first fault found.
     pub fn read(path: &Path) -> Result<(Case, Document), Fault> {
         let document = Document::read(path)?;
-        document.refuse_unknown_keys::<Case>()?;
-        let case: Case = document.typed(&document.value, |place| place)?;
-        let wrong = |field, message: &str| Err(document.fault(&lab::Place::of(field), message));
+        let case: Case = document.read_as()?;
+        let wrong = |field, message: &str| Err(document.fault(&Place::of(field), message));
         if !case.experiment.is_object() {
             return wrong("experiment", "expected an object, the fields of an experiment");
         }

@@ -5,8 +5,6 @@
 
 use std::fmt;
 
-use thiserror::Error;
-
 /// What a quantity measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dimension {
@@ -41,7 +39,7 @@ type Units = &'static [(&'static str, Scale)];
 
 impl Dimension {
     /// The word for it and an example, as in "expected a frequency such as \"50 MHz\"".
-    fn word_and_example(self) -> (&'static str, &'static str) {
+    const fn word_and_example(self) -> (&'static str, &'static str) {
         match self {
             Dimension::Time => ("a time", "40 ns"),
             Dimension::Frequency => ("a frequency", "50 MHz"),
@@ -54,9 +52,19 @@ impl Dimension {
         }
     }
 
+    /// The word for it, with its article.
+    pub const fn noun(self) -> &'static str {
+        self.word_and_example().0
+    }
+
     /// An example of a quantity of this dimension.
-    pub fn example(self) -> &'static str {
+    pub const fn example(self) -> &'static str {
         self.word_and_example().1
+    }
+
+    /// The values that it may have, in words.
+    pub const fn range(self) -> &'static str {
+        if self.allows_zero() { "finite and not negative" } else { "finite and above zero" }
     }
 
     /// The names of the units that [`parse`] takes.
@@ -103,7 +111,7 @@ impl Dimension {
         }
     }
 
-    fn allows_zero(self) -> bool {
+    const fn allows_zero(self) -> bool {
         !matches!(self, Dimension::Frequency | Dimension::Bandwidth)
     }
 }
@@ -116,75 +124,30 @@ impl fmt::Display for Dimension {
     }
 }
 
-/// Why a text is no quantity of the dimension expected.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-pub enum QuantityError {
-    /// It does not begin with a number.
-    #[error("found {found:?}; expected {expected}")]
-    NoNumber {
-        /// The text.
-        found: String,
-        /// What should stand there.
-        expected: Dimension,
-    },
-    /// Only a number.
-    #[error("found {found:?} without a unit; expected {expected}")]
-    NoUnit {
-        /// The text.
-        found: String,
-        /// What should stand there.
-        expected: Dimension,
-    },
-    /// The unit of another dimension, or of none.
-    #[error("found {found:?} with the unit {unit:?}; expected {expected} (units: {})", names(*expected))]
-    WrongUnit {
-        /// The text.
-        found: String,
-        /// The unit in it.
-        unit: String,
-        /// What should stand there.
-        expected: Dimension,
-    },
-    /// Below zero, zero where that means nothing, or too large for an f64.
-    #[error("found {found:?}; expected {expected}, {}", range(*expected))]
-    OutOfRange {
-        /// The text.
-        found: String,
-        /// What should stand there.
-        expected: Dimension,
-    },
-}
-
-fn names(dimension: Dimension) -> String {
-    dimension.unit_names().collect::<Vec<_>>().join(", ")
-}
-
-fn range(dimension: Dimension) -> &'static str {
-    if dimension.allows_zero() { "finite and not negative" } else { "finite and above zero" }
-}
-
 /// Reads a number with a unit of the given dimension; returns it in the dimension's SI unit.
 ///
 /// # Errors
-/// [`QuantityError`], whose text says what was found and what was expected, with an example.
-pub fn parse(text: &str, expected: Dimension) -> Result<f64, QuantityError> {
-    let found = || text.to_owned();
+/// What was found and what was expected, with an example.
+pub fn parse(text: &str, expected: Dimension) -> Result<f64, String> {
     let (number, unit) = split(text.trim());
     let Ok(number) = number.parse::<f64>() else {
-        return Err(QuantityError::NoNumber { found: found(), expected });
+        return Err(format!("found {text:?}; expected {expected}"));
     };
     if unit.is_empty() {
-        return Err(QuantityError::NoUnit { found: found(), expected });
+        return Err(format!("found {text:?} without a unit; expected {expected}"));
     }
     let Some((_, scale)) = expected.units().iter().find(|(name, _)| *name == unit) else {
-        return Err(QuantityError::WrongUnit { found: found(), unit: unit.to_owned(), expected });
+        let units = expected.unit_names().collect::<Vec<_>>().join(", ");
+        let found = format!("found {text:?} with the unit {unit:?}");
+        return Err(format!("{found}; expected {expected} (units: {units})"));
     };
     let value = match scale {
         Times(factor) => number * factor,
         Over(divisor) => number / divisor,
     };
     let in_range = value.is_finite() && (value > 0.0 || value == 0.0 && expected.allows_zero());
-    if in_range { Ok(value) } else { Err(QuantityError::OutOfRange { found: found(), expected }) }
+    let refuse = || format!("found {text:?}; expected {expected}, {}", expected.range());
+    if in_range { Ok(value) } else { Err(refuse()) }
 }
 
 /// Splits "1.5e3 s" into "1.5e3" and "s". An `e` belongs to the number only before a digit or sign.
@@ -250,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_quantity_is_refused_with_what_was_expected() {
+    fn other_texts_are_refused_with_what_was_expected() {
         for (text, dimension, message) in [
             (
                 "50",
@@ -303,7 +266,7 @@ mod tests {
                 r#"found "-5 %"; expected a fraction such as "10 %", finite and not negative"#,
             ),
         ] {
-            let error = parse(text, dimension).map_err(|error| error.to_string());
+            let error = parse(text, dimension);
             assert_eq!(error, Err(message.to_owned()));
         }
     }

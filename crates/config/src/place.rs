@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use serde_path_to_error::{Path, Segment};
+
 /// One step from a JSON value to a value inside it.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Step {
@@ -16,9 +18,10 @@ pub enum Step {
 pub struct Place(pub Vec<Step>);
 
 impl Place {
-    /// The place of a dotted path of keys.
+    /// The place of a dotted path of keys; an empty one is the document's root.
     pub fn of(dotted: &str) -> Place {
-        Place(dotted.split('.').map(|key| Step::Key(key.to_owned())).collect())
+        let keys = dotted.split('.').filter(|key| !key.is_empty());
+        Place(keys.map(|key| Step::Key(key.to_owned())).collect())
     }
 
     /// The place of `key` inside this one.
@@ -36,8 +39,24 @@ impl Place {
         other.0.starts_with(&self.0)
     }
 
+    /// The place to which `rest` leads from this one.
+    pub fn join(&self, rest: &Place) -> Place {
+        Place(self.0.iter().chain(&rest.0).cloned().collect())
+    }
+
     fn with(&self, step: Step) -> Place {
         Place(self.0.iter().cloned().chain([step]).collect())
+    }
+}
+
+impl From<&Path> for Place {
+    fn from(path: &Path) -> Place {
+        let steps = path.iter().filter_map(|segment| match segment {
+            Segment::Seq { index } => Some(Step::Item(*index)),
+            Segment::Map { key } => Some(Step::Key(key.clone())),
+            Segment::Enum { .. } | Segment::Unknown => None,
+        });
+        Place(steps.collect())
     }
 }
 

@@ -1,4 +1,4 @@
-//! JSON text as a value, no key twice, and the line on which a part of it stands.
+//! JSON text as a value, no key twice, and the line on which a part of it begins.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -8,41 +8,48 @@ use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Visitor};
 use serde_json::value::RawValue;
 use serde_json::{Map, Value};
 
-use crate::files::place::{Place, Step};
+use crate::fault::Fault;
+use crate::place::{Place, Step};
 
 /// Reads JSON and refuses an object that names a key twice.
 ///
 /// # Errors
-/// serde_json's, with line and column.
-pub fn parse(text: &str) -> Result<Value, serde_json::Error> {
-    serde_json::from_str::<Strict>(text).map(|strict| strict.0)
+/// What is wrong, with line, column and place; the file is left open.
+pub fn parse(text: &str) -> Result<Value, Fault> {
+    let fault = |place, error: &serde_json::Error| {
+        let message = error.to_string();
+        let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(head, _)| head);
+        let (line, column) = (Some(error.line()), Some(error.column()));
+        Fault { line, column, ..Fault::at(place, message) }
+    };
+    let mut json = serde_json::Deserializer::from_str(text);
+    let Strict(value) = serde_path_to_error::deserialize(&mut json)
+        .map_err(|error| fault(Place::from(error.path()), error.inner()))?;
+    json.end().map_err(|error| fault(Place::default(), &error))?;
+    Ok(value)
 }
 
-/// Gives a value the fields that it lacks, after its own.
-pub fn fill(value: &mut Value, defaults: Value) {
-    let (Value::Object(fields), Value::Object(defaults)) = (value, defaults) else { return };
-    for (name, default) in defaults {
-        match fields.get_mut(&name) {
-            Some(field) => fill(field, default),
-            None => _ = fields.insert(name, default),
-        }
-    }
-}
-
-/// The line, from 1, on which the value at `place` begins.
+/// The line, from 1, on which the value at `place` begins, or else the innermost value around it that
+/// is there; none if that is the whole text.
 pub fn line_of(text: &str, place: &Place) -> Option<usize> {
     let mut raw: &RawValue = serde_json::from_str(text).ok()?;
+    let whole = raw.get();
     for step in &place.0 {
-        raw = match step {
-            Step::Key(key) => {
-                let fields: BTreeMap<String, &RawValue> = serde_json::from_str(raw.get()).ok()?;
-                fields.get(key)?
-            }
-            Step::Item(index) => {
-                let items: Vec<&RawValue> = serde_json::from_str(raw.get()).ok()?;
-                items.get(*index)?
-            }
+        let inner = match step {
+            Step::Key(key) => serde_json::from_str::<BTreeMap<String, &RawValue>>(raw.get())
+                .ok()
+                .and_then(|fields| fields.get(key).copied()),
+            Step::Item(index) => serde_json::from_str::<Vec<&RawValue>>(raw.get())
+                .ok()
+                .and_then(|items| items.get(*index).copied()),
         };
+        match inner {
+            Some(inner) => raw = inner,
+            None => break,
+        }
+    }
+    if raw.get() == whole {
+        return None;
     }
     // `raw` borrows from `text`, so the two addresses tell how far into it the value begins.
     let offset = raw.get().as_ptr() as usize - text.as_ptr() as usize;
@@ -103,7 +110,9 @@ impl<'de> Visitor<'de> for StrictVisitor {
         let mut object = Map::new();
         while let Some(key) = entries.next_key::<String>()? {
             if object.contains_key(&key) {
-                return Err(A::Error::custom(format!("the key \"{key}\" stands here twice")));
+                return Err(A::Error::custom(format!(
+                    "found the key \"{key}\" twice; expected it once"
+                )));
             }
             let Strict(value) = entries.next_value()?;
             object.insert(key, value);
@@ -119,10 +128,19 @@ mod tests {
     #[test]
     fn a_key_twice_is_refused_with_its_line() {
         let fault = parse("{\n \"a\": 1,\n \"b\": {\"c\": 1, \"c\": 2}\n}").unwrap_err();
-        assert!(
-            fault.to_string().starts_with("the key \"c\" stands here twice at line 3"),
-            "{fault}"
-        );
+        assert_eq!((fault.line, fault.place.to_string()), (Some(3), "b".to_owned()));
+        assert_eq!(fault.message, "found the key \"c\" twice; expected it once");
+    }
+
+    #[test]
+    fn what_is_no_json_is_refused_with_line_and_column() {
+        for (text, message) in [
+            ("", ":1:0: EOF while parsing a value"),
+            ("{\n \"a\": }", ":2:7: a: expected value"),
+            ("{}\n}", ":2:1: trailing characters"),
+        ] {
+            assert_eq!(parse(text).unwrap_err().to_string(), message);
+        }
     }
 
     #[test]
@@ -130,6 +148,8 @@ mod tests {
         let text = "{\n \"a\": [1,\n  2],\n \"b\\n\": {\n\"c\": 3}}";
         assert_eq!(line_of(text, &Place::of("a").item(1)), Some(3));
         assert_eq!(line_of(text, &Place::default().key("b\n").key("c")), Some(5));
+        assert_eq!(line_of(text, &Place::of("a").item(7)), Some(2));
+        assert_eq!(line_of(text, &Place::default()), None);
         assert_eq!(line_of(text, &Place::of("nothing")), None);
         assert_eq!(line_of("{", &Place::default()), None);
     }

@@ -1,49 +1,50 @@
-//! Bad input: one message that names file, place and value and says what was expected.
+//! Bad input: one message that names file, line, place and value and says what was expected.
 
 use std::fmt;
 
-use crate::files::place::Place;
+use crate::place::Place;
 
 /// Why an input is refused. Its text is one message, complete in itself.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Fault {
-    /// The file, as the user named it, or the argument at fault; empty if the message names it.
+    /// The file, as the user named it, or the argument at fault; empty if the message names it, or
+    /// if it is not known yet.
     pub file: String,
     /// The line in the file, from 1.
     pub line: Option<usize>,
+    /// The column, where the text is not JSON.
+    pub column: Option<usize>,
     /// The value in the file; empty when the fault is the file's as a whole.
     pub place: Place,
-    /// What is wrong and what was expected.
+    /// What was found and what was expected.
     pub message: String,
 }
 
 impl Fault {
     /// A fault of a file as a whole.
     pub fn of_file(file: impl fmt::Display, message: impl Into<String>) -> Fault {
-        let (file, message) = (file.to_string(), message.into());
-        Fault { file, line: None, place: Place::default(), message }
+        Fault { file: file.to_string(), message: message.into(), ..Fault::default() }
+    }
+
+    /// A fault at a place of a file that the caller will name: see [`crate::Document::locate`].
+    pub fn at(place: Place, message: impl Into<String>) -> Fault {
+        Fault { place, message: message.into(), ..Fault::default() }
     }
 
     /// A fault whose message already names file and place.
     pub fn complete(message: impl fmt::Display) -> Fault {
-        let message = message.to_string();
-        Fault { file: String::new(), line: None, place: Place::default(), message }
+        Fault { message: message.to_string(), ..Fault::default() }
     }
 }
 
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.file.is_empty() {
-            return f.write_str(&self.message);
-        }
-        write!(f, "{}", self.file)?;
-        if let Some(line) = self.line {
-            write!(f, ":{line}")?;
-        }
-        if !self.place.0.is_empty() {
-            write!(f, ": {}", self.place)?;
-        }
-        write!(f, ": {}", self.message)
+        let line = self.line.map_or(String::new(), |line| format!(":{line}"));
+        let column = self.column.map_or(String::new(), |column| format!(":{column}"));
+        let place = self.place.to_string();
+        let parts = [self.file.clone() + &line + &column, place, self.message.clone()];
+        let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
+        f.write_str(&parts.join(": "))
     }
 }
 
@@ -60,6 +61,3 @@ pub fn unknown(what: &str, name: &str, known: &[String]) -> String {
     let known = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
     format!("unknown {what} \"{name}\"{hint} (there are: {known})")
 }
-
-/// What is wrong with a field of the experiment: its place, and the message.
-pub type WrongField = (&'static str, String);

@@ -1,0 +1,123 @@
+//! JSON values as Rust types: what serde refuses, with its place, in plain words.
+
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+
+use crate::fault::{Fault, unknown};
+use crate::place::Place;
+use crate::schema;
+
+/// Reads a value as a `T`.
+///
+/// # Errors
+/// If the value is not a `T`: its place, and what was expected there; the file is left open.
+pub fn read<T: DeserializeOwned>(value: &Value) -> Result<T, Fault> {
+    serde_path_to_error::deserialize(value).map_err(|error| {
+        Fault::at(Place::from(error.path()), in_plain_words(&error.inner().to_string()))
+    })
+}
+
+/// Refuses the first key that a type does not have, with those that it has; `schema` is the type's.
+///
+/// # Errors
+/// If there is such a key; the file is left open.
+pub fn refuse_unknown_keys(schema: &Value, value: &Value) -> Result<(), Fault> {
+    // serde would take a list for the fields of a struct, one after the other.
+    if value.is_array() && schema.get("type").is_some_and(|kind| kind == "object") {
+        return Err(Fault::at(Place::default(), "found a list; expected an object"));
+    }
+    unknown_key(schema, value, &Place::default()).map_or(Ok(()), Err)
+}
+
+/// The first key under `value` that `schema` does not list.
+fn unknown_key(schema: &Value, value: &Value, place: &Place) -> Option<Fault> {
+    match value {
+        Value::Object(object) => object.iter().find_map(|(key, inner)| {
+            let place = place.key(key);
+            match schema::field(schema, key) {
+                Ok(schema) => unknown_key(schema?, inner, &place),
+                Err(known) => Some(Fault::at(place, unknown("field", key, &known))),
+            }
+        }),
+        Value::Array(items) => {
+            let schema = schema::items(schema)?;
+            let mut items = items.iter().enumerate();
+            items.find_map(|(i, inner)| unknown_key(schema, inner, &place.item(i)))
+        }
+        _ => None,
+    }
+}
+
+/// serde's message without Rust's names of types.
+fn in_plain_words(message: &str) -> String {
+    let Some((head, expected)) = message.rsplit_once("expected ") else {
+        return message.to_owned();
+    };
+    let expected = match expected {
+        "u8" | "u16" | "u32" | "u64" | "usize" => "a whole number, 0 or more",
+        "a nonzero u8" => "a whole number, 1 to 255",
+        "a nonzero u16" => "a whole number, 1 to 65535",
+        "f64" => "a number",
+        _ if expected.starts_with("struct ") => "an object",
+        "a sequence" => "a list",
+        other => other,
+    };
+    format!("{head}expected {expected}")
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use schemars::JsonSchema;
+    use serde::Deserialize;
+    use serde_json::json;
+
+    use super::*;
+
+    #[derive(Debug, Deserialize, JsonSchema)]
+    #[serde(deny_unknown_fields)]
+    #[allow(dead_code, reason = "read in tests only")]
+    struct File {
+        inner: Option<Inner>,
+        named: Option<BTreeMap<String, Inner>>,
+        list: Option<Vec<Inner>>,
+    }
+
+    #[derive(Debug, Deserialize, JsonSchema)]
+    #[serde(deny_unknown_fields)]
+    #[allow(dead_code, reason = "read in tests only")]
+    struct Inner {
+        count: u32,
+    }
+
+    #[test]
+    fn unknown_keys_are_found_at_any_depth() {
+        for (value, place) in [
+            (json!({ "outer": 1 }), "outer"),
+            (json!({ "inner": { "counts": 1 } }), "inner.counts"),
+            (json!({ "named": { "a": { "count": 1 }, "b": { "counts": 1 } } }), "named.b.counts"),
+            (json!({ "list": [{ "count": 1 }, { "counts": 1 }] }), "list[1].counts"),
+        ] {
+            let fault = refuse_unknown_keys(&schema::of::<File>(), &value).unwrap_err();
+            assert_eq!(fault.place.to_string(), place);
+        }
+        let message = refuse_unknown_keys(&schema::of::<Inner>(), &json!({ "cuont": 1 }))
+            .unwrap_err()
+            .message;
+        assert_eq!(message, "unknown field \"cuont\", did you mean \"count\"? (there are: count)");
+        assert!(
+            refuse_unknown_keys(&schema::of::<File>(), &json!({ "named": { "any": null } }))
+                .is_ok()
+        );
+    }
+
+    #[test]
+    fn values_of_a_wrong_type_are_refused_in_plain_words() {
+        let fault = read::<File>(&json!({ "list": [{ "count": -1 }] })).unwrap_err();
+        let message = "invalid value: integer `-1`, expected a whole number, 0 or more";
+        assert_eq!(fault.to_string(), format!("list[0].count: {message}"));
+        let message = refuse_unknown_keys(&schema::of::<File>(), &json!([])).unwrap_err().message;
+        assert_eq!(message, "found a list; expected an object");
+    }
+}
