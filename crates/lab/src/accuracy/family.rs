@@ -1,4 +1,4 @@
-//! All settings of the knobs on one mesh: what each costs and errs, told from a few pilot runs.
+//! All settings on one mesh, with their costs and errors as predicted from a few pilot runs.
 //!
 //! Runs that differ in one knob alone differ by the error of that knob, and by the noise of their directions,
 //! which is known and taken off; what witnesses find beyond is the mesh's. Laws that were measured elsewhere
@@ -31,10 +31,10 @@ const SPLITS: [u32; 6] = [1, 2, 3, 4, 6, 8];
 /// Settings on one mesh.
 #[derive(Clone)]
 pub struct Family {
-    /// Patches are so many times as long as the experiment, or the scene, asks for.
+    /// Edge of a patch over that of the experiment or the scene.
     pub mesh: f64,
     curves: Vec<Curve>,
-    /// The error of the directions with so many pixels.
+    /// The error of the directions, and the number of pixels it belongs to.
     directions: (f64, u32),
     /// The error of shooting from centres of whole patches.
     centre: f64,
@@ -43,7 +43,7 @@ pub struct Family {
     /// A run's time over that with the first number of pixels: this, and so much a pixel.
     fixed: f64,
     a_pixel: f64,
-    /// By how much causes but stopping, and times, have come out larger than told here.
+    /// Factors by which errors without stopping, and times, were larger than predicted.
     error_correction: f64,
     time_correction: f64,
 }
@@ -192,9 +192,9 @@ impl Family {
     /// Learns what came of a setting: the square of its error, and its time.
     pub fn learn(&mut self, proposal: &Proposal, square: f64, time_s: f64) {
         let Causes { stopping, .. } = proposal.causes;
-        let told = Causes { stopping: 0.0, ..proposal.causes }.total();
+        let predicted = Causes { stopping: 0.0, ..proposal.causes }.total();
         let found = (square - stopping * stopping).max(0.0).sqrt();
-        self.error_correction *= (found / told.max(f64::MIN_POSITIVE)).clamp(0.5, 2.0);
+        self.error_correction *= (found / predicted.max(f64::MIN_POSITIVE)).clamp(0.5, 2.0);
         self.time_correction *= time_s / proposal.time_s;
     }
 }
@@ -216,7 +216,7 @@ fn converged(
         // What is to come falls from halving to halving as it did, half as fast at best.
         let falls = if before > 0.0 { (after / before).clamp(0.5, 0.9) } else { 0.9 };
         let tail = after * falls / (1.0 - falls);
-        // A halving that hardly a patch lies in changes nothing, and says nothing.
+        // A halving that contains hardly any patch changes nothing.
         let [left, before] = [last, last - 2].map(|step| stops[step].unshot.abs());
         let enough = tail <= target / 4.0 && (left <= target || left < 0.9 * before);
         if enough || last >= MOST_STEPS {
@@ -226,7 +226,7 @@ fn converged(
     }
 }
 
-/// By how much the error of directions falls with so many times the rays.
+/// Factor of the error of directions when rays are multiplied by a factor.
 fn fall(times: f64) -> f64 {
     times.powf(DIRECTIONS_POWER)
 }

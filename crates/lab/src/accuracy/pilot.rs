@@ -21,11 +21,11 @@ use crate::open::settings::Settings;
 /// A setting of the knobs that trade accuracy for time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Knobs {
-    /// Patches are so many times as long as the experiment, or the scene, asks for.
+    /// Edge of a patch over that of the experiment or the scene.
     pub mesh: f64,
     /// Rays a source.
     pub pixels: u32,
-    /// A patch is cut into so many sources along each of its two directions.
+    /// Sources of a patch along each of its two directions.
     pub split: u32,
     /// The share of the brightest patch below which none is shot, both on the mesh that is asked for.
     pub threshold: f64,
@@ -58,7 +58,7 @@ impl fmt::Display for Knobs {
     }
 }
 
-/// Witnesses are heard no longer after so many paths.
+/// Most paths of all witnesses together.
 const MOST_PATHS: u64 = 1 << 25;
 
 /// Thresholds at which pilot runs are looked at fall from this share of the brightest patch.
@@ -88,7 +88,7 @@ pub struct Pilots<'a> {
     machine: &'a Machine,
     host: Host<'a>,
     witnesses: RefCell<Witnesses>,
-    /// By which the threshold is told.
+    /// The power that thresholds are relative to, W.
     brightest: f64,
     problems: RefCell<Vec<Prepared>>,
     runs: RefCell<Vec<Rc<Pilot>>>,
@@ -100,9 +100,9 @@ pub struct Pilots<'a> {
 pub struct Host<'a> {
     /// Bytes for shots that they share.
     pub memory: usize,
-    /// Threads that follow light.
+    /// Threads that trace paths of light.
     pub threads: usize,
-    /// Hears how many were made.
+    /// Called with the number of pilot runs made.
     pub watch: &'a dyn Fn(usize),
 }
 

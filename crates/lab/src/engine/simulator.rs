@@ -1,4 +1,4 @@
-//! The one door to the simulator: beyond it nothing here knows how a kernel or a link works.
+//! Calls the simulator: no other folder of this crate does.
 
 use std::borrow::Cow;
 use std::cell::RefCell;

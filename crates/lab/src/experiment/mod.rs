@@ -6,8 +6,8 @@
 //! - [`source_split`]: Field `source_split`.
 //! - [`interfaces`]: Fields `interfaces` and `virtual_walls`.
 //! - [`accuracy`]: Field `accuracy`.
-//! - [`display`]: Field `display`, and what runs tell of the display.
-//! - [`node_memory`]: Field `node_memory`, and what runs tell of the memory.
+//! - [`display`]: Field `display`, and figures of the display.
+//! - [`node_memory`]: Field `node_memory`, and figures of the memory.
 //! - [`sweep`]: Lists of values make a product of runs.
 
 pub mod accuracy;

@@ -13,7 +13,7 @@ use crate::engine::simulator::{self, Light};
 use crate::experiment::fields::Experiment;
 use crate::files::document::Document;
 use crate::files::fault::Fault;
-use crate::files::find::{Shelf, find};
+use crate::files::find::{FileKind, find};
 use crate::files::place::Place;
 use crate::open::problem;
 use crate::open::scene::Scene;
@@ -30,8 +30,7 @@ pub struct Stage {
     problem: Arc<Problem>,
 }
 
-/// A run that can be looked at, as often as one likes: it is made again each time, and its shots are
-/// kept.
+/// A run that can be looked at repeatedly: it is simulated again each time, with kept shots.
 pub struct StagedRun {
     /// Its row in the results, from 1.
     pub row: usize,
@@ -78,7 +77,7 @@ impl Stage {
     }
 
     fn of_scene(name: &str) -> Result<Stage, Fault> {
-        let found = find(Path::new("."), Shelf::Scenes, name).map_err(Fault::complete)?;
+        let found = find(Path::new("."), FileKind::Scenes, name).map_err(Fault::complete)?;
         let scene = Scene::load(&found)?;
         let fault = |(_, message)| Fault::of_file(&found.label, message);
         let mut whole = Experiment::of_one_environment(name);

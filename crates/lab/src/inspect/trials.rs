@@ -1,5 +1,4 @@
-//! The runs of an experiment one by one, on its own scene or on another: for those who look at the
-//! light rather than at a table.
+//! Single runs of an experiment, on its own scene or on another, for callers that need the light and no table.
 
 use std::path::Path;
 use std::sync::Arc;

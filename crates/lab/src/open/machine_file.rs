@@ -8,7 +8,7 @@ use serde_json::Value;
 use crate::files::digest::FileDigest;
 use crate::files::fault::Fault;
 use crate::files::file;
-use crate::files::find::{Found, Shelf, find};
+use crate::files::find::{FileKind, Found, find};
 
 /// A longer row of machines that extend each other can only be a circle.
 const LONGEST_ROW: usize = 8;
@@ -39,7 +39,7 @@ impl MachineFile {
                 return Err(fault(format!("found \"{base}\"; expected an end of the row")));
             }
             let folder = here.path.parent().unwrap_or(Path::new(""));
-            here = find(folder, Shelf::Machines, &base).map_err(fault)?;
+            here = find(folder, FileKind::Machines, &base).map_err(fault)?;
             let base = file::read_text(&here.path)?;
             digests.push(FileDigest::of_bytes(base.as_bytes(), &here.label));
             let mut base: Value = serde_json::from_str(&base)

@@ -5,7 +5,7 @@ use std::path::Path;
 use multicomputer::Machine;
 
 use crate::files::fault::Fault;
-use crate::files::find::{Shelf, find};
+use crate::files::find::{FileKind, find};
 use crate::open::machine_file::MachineFile;
 
 /// A machine, and its file.
@@ -25,7 +25,7 @@ impl OpenMachine {
     /// # Errors
     /// What is wrong, and where.
     pub fn load(name: &str) -> Result<OpenMachine, Fault> {
-        let found = find(Path::new("."), Shelf::Machines, name).map_err(Fault::complete)?;
+        let found = find(Path::new("."), FileKind::Machines, name).map_err(Fault::complete)?;
         let MachineFile { machine, text, .. } = MachineFile::load(&found)?;
         Ok(OpenMachine { machine, label: found.label, text })
     }

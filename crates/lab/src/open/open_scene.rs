@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::experiment::fields::Experiment;
 use crate::files::fault::Fault;
-use crate::files::find::{Shelf, find};
+use crate::files::find::{FileKind, find};
 use crate::open::scene::Scene;
 use crate::open::settings::Settings;
 
@@ -32,7 +32,7 @@ impl OpenScene {
     /// # Errors
     /// What is wrong, and where.
     pub fn load(name: &str) -> Result<OpenScene, Fault> {
-        let found = find(Path::new("."), Shelf::Scenes, name).map_err(Fault::complete)?;
+        let found = find(Path::new("."), FileKind::Scenes, name).map_err(Fault::complete)?;
         let scene = Scene::load(&found)?;
         let whole = Experiment::of_one_environment(name);
         let settings = Settings::of(&whole, &scene)

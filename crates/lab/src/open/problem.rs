@@ -18,7 +18,7 @@ pub fn problem(scene: &radiosity::Scene, settings: &Settings) -> Result<Arc<Prob
     Ok(problem_on(scene, settings, 1)?.0)
 }
 
-/// The same on so many threads, and the CPU seconds of all of them.
+/// The same on `threads` threads, and the CPU seconds of all of them.
 ///
 /// # Errors
 /// Those of [`problem`].
@@ -78,7 +78,7 @@ fn smaller_hemispheres(settings: &Settings) -> Result<Vec<Hemisphere>, WrongFiel
     smaller.take_while(|&pixels| pixels >= least).map(|p| hemisphere(settings, p)).collect()
 }
 
-/// A hemisphere of so many pixels.
+/// A hemisphere of `pixels` pixels.
 fn hemisphere(settings: &Settings, pixels: u32) -> Result<Hemisphere, WrongField> {
     let hemisphere = Hemisphere::new(settings.directions, pixels, settings.rotated)
         .map_err(|error| ("hemisphere.pixels", error.to_string()))?;

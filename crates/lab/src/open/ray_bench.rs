@@ -27,7 +27,7 @@ impl RayBench {
     /// Rays from `sources` points that `seed` draws, `rays` from each.
     ///
     /// # Errors
-    /// When a hemisphere cannot have so many rays.
+    /// If a hemisphere cannot have this number of rays.
     pub fn new(
         open: OpenScene,
         sources: u32,

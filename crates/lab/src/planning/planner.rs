@@ -1,4 +1,4 @@
-//! How a plan is made from an experiment file: every check there is, and nothing loaded twice.
+//! Makes a plan from an experiment file: makes every check, and loads each file once.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -17,7 +17,7 @@ use crate::files::digest::FileDigest;
 use crate::files::document::Document;
 use crate::files::fault::Fault;
 use crate::files::file::{PLAIN, is_plain};
-use crate::files::find::{Found, Shelf, find, named_from};
+use crate::files::find::{FileKind, Found, find, named_from};
 use crate::files::json;
 use crate::files::place::Place;
 use crate::host::host_clock::HostClock;
@@ -83,10 +83,10 @@ struct Planner<'a> {
     preparing: &'a Preparing<'a>,
     scenes: Vec<Found>,
     machines: Vec<Equipment>,
-    /// Which of those stored, by file and scene.
+    /// Indices into `stored`, by file and scene.
     references: BTreeMap<(PathBuf, usize), usize>,
     stored: Vec<Stored>,
-    /// Sweeps that accuracies are held against, by name.
+    /// Sweeps that accuracies are compared with, by name.
     sweeps: BTreeMap<String, (Table, FileDigest)>,
 }
 
@@ -205,7 +205,7 @@ impl Planner<'_> {
         let stem = || self.scenes[draft.scene].path.file_stem().unwrap_or_default();
         let name =
             if name == answer::STORED { stem().to_string_lossy() } else { Cow::Borrowed(name) };
-        let found = find(self.folder, Shelf::References, &name).map_err(refuse)?;
+        let found = find(self.folder, FileKind::References, &name).map_err(refuse)?;
         let key = (found.path.clone(), draft.scene);
         if let Some(&known) = self.references.get(&key) {
             return Ok(Some(known));
@@ -223,7 +223,7 @@ impl Planner<'_> {
 
     /// The machine of this point, loaded once.
     fn machine(&mut self, point: &Point, typed: &Experiment) -> Result<usize, Fault> {
-        let found = find(self.folder, Shelf::Machines, &typed.machine)
+        let found = find(self.folder, FileKind::Machines, &typed.machine)
             .map_err(|message| self.fault(point, "machine", message))?;
         if let Some(loaded) = self.machines.iter().position(|m| m.path == found.path) {
             return Ok(loaded);
@@ -235,7 +235,7 @@ impl Planner<'_> {
 
     /// Where the scene of this point is.
     fn scene(&mut self, point: &Point, typed: &Experiment) -> Result<usize, Fault> {
-        let found = find(self.folder, Shelf::Scenes, &typed.scene)
+        let found = find(self.folder, FileKind::Scenes, &typed.scene)
             .map_err(|message| self.fault(point, "scene", message))?;
         if let Some(known) = self.scenes.iter().position(|scene| scene.path == found.path) {
             return Ok(known);
@@ -244,7 +244,7 @@ impl Planner<'_> {
         Ok(self.scenes.len() - 1)
     }
 
-    /// Checks the accuracy that a point asks for, and reads what it is held against, once.
+    /// Checks the accuracy that a point asks for, and reads the sweep it is compared with, once.
     fn accuracy(&mut self, point: &Point, typed: &Experiment) -> Result<(), Fault> {
         let Some(accuracy) = &typed.accuracy else { return Ok(()) };
         let checked = accuracy.check(&point.value);
@@ -327,7 +327,7 @@ impl Planner<'_> {
         };
         let threads = self.preparing.threads;
         std::thread::scope(|scope| {
-            // Runs will be saved under the name of this program: meanwhile it reads itself.
+            // Saved runs are named by a digest of this program, which is computed meanwhile.
             if threads > 1 {
                 scope.spawn(program);
             }

@@ -1,4 +1,4 @@
-//! A folder of results: written whole, and read again to be drawn anew.
+//! A folder of results: written, and read again to be redrawn.
 
 use std::fs;
 use std::io;
@@ -19,7 +19,7 @@ use crate::planning::plan::Plan;
 use crate::results::chart;
 use crate::results::console::table_text;
 use crate::results::host_times;
-use crate::results::reels;
+use crate::results::recordings;
 use crate::results::report;
 use crate::results::run_table::run_table;
 use crate::run::runner::{Endings, Options};
@@ -45,7 +45,7 @@ impl Results {
     pub fn of(plan: &Plan, endings: &Endings, options: &Options) -> io::Result<Results> {
         let table = run_table(plan, endings);
         let manifest = manifest(plan, &table, options.on)?;
-        let recorded = reels::recorded(plan, endings, options.threads.max(1));
+        let recorded = recordings::recorded(plan, endings, options.threads.max(1));
         Ok(Results { table, manifest, recorded })
     }
 

@@ -1,4 +1,4 @@
-//! Runs on several models of the network side by side: what the coarser ones miss, and what each costs.
+//! Network models compared: errors of the coarser ones, and the cost of each.
 
 use std::collections::BTreeMap;
 
@@ -23,7 +23,7 @@ pub fn finest(plan: &Plan, endings: &Endings) -> Finest {
     finest
 }
 
-/// Runs that tell of their network, with the model used and the time.
+/// Runs with figures of their network, with the model used and the time.
 fn timed<'a>(
     plan: &'a Plan,
     endings: &'a Endings,

@@ -143,7 +143,7 @@ fn grouped(lines: &[Line]) -> String {
     )
 }
 
-/// What accuracy costs, where runs tell their errors.
+/// What accuracy costs, where runs have errors.
 fn cheapest(runs: &Table, sweeps: &[String]) -> String {
     let cheapest = cheapest::cheapest(runs, sweeps);
     if cheapest.is_empty() {

@@ -60,7 +60,7 @@ pub fn options(threads: usize) -> Options {
         traces: None,
         viewing: Viewing::None,
         feed: None,
-        pulse: false,
+        counters: false,
     }
 }
 
