@@ -24,7 +24,7 @@ pub struct Trials {
 }
 
 impl Trials {
-    /// Validates an experiment that stands in a part of another file, as if it were the file at `path`.
+    /// Validates an experiment that is part of another file, as if it were the file at `path`.
     ///
     /// # Errors
     /// The first fault met.
@@ -50,7 +50,7 @@ impl Trials {
         axes.map(field).collect::<Vec<_>>().join(", ")
     }
 
-    /// What was mended in the scenes.
+    /// What was corrected in the scenes.
     pub fn warnings(&self) -> &[String] {
         &self.plan.warnings
     }

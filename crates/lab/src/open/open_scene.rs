@@ -1,4 +1,4 @@
-//! A scene outside any experiment: to be counted and looked at.
+//! A scene outside any experiment, for statistics and pictures.
 
 use std::path::Path;
 
@@ -16,7 +16,7 @@ pub struct OpenScene {
     pub label: String,
     /// The geometry.
     pub scene: radiosity::Scene,
-    /// What was mended on loading.
+    /// What was corrected on loading.
     pub warnings: Vec<String>,
     /// Longest edge of a patch, metres.
     pub patch_size: f64,

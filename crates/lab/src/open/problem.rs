@@ -1,4 +1,4 @@
-//! Scenes made ready for the simulator, as the settings of an experiment say.
+//! Scenes, meshed and cut for the simulator by the settings of an experiment.
 
 use std::sync::Arc;
 
@@ -71,7 +71,7 @@ fn cut(scene: &radiosity::Scene, settings: &Settings) -> Result<CutScene, WrongF
     }
 }
 
-/// Those of dimmer sources, each with a quarter of the pixels of the one before.
+/// The hemispheres of dimmer sources, each with a quarter of the pixels of the one before.
 fn smaller_hemispheres(settings: &Settings) -> Result<Vec<Hemisphere>, WrongField> {
     let least = settings.least_pixels.unwrap_or(settings.pixels).max(1);
     let smaller = (1..16).map(|quarters| settings.pixels >> (2 * quarters));

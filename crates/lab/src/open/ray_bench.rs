@@ -1,5 +1,4 @@
-//! Rays from random points of a scene: what the kernel casts when it is measured, and whatever other
-//! tracer is held against it.
+//! Rays from random points of a scene, to compare the speed of the kernel with that of other ray tracers.
 
 use radiosity::glam::DVec3;
 use radiosity::{

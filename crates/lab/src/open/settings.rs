@@ -17,7 +17,7 @@ const BARE_PATCHES: f64 = 1.0 / 50.0;
 /// Most patches: more would not fit a usual host's memory.
 const MOST_PATCHES: f64 = 2e7;
 
-/// How a scene is meshed, cut and lit: all that decides what a shot does.
+/// How a scene is meshed, cut and lit: all that decides the result of a shot.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Settings {
     /// The scene, as the experiment names it.

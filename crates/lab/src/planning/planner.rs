@@ -35,8 +35,8 @@ use crate::table::comparison::Comparison;
 use crate::table::runs_csv::Table;
 
 impl Plan {
-    /// Reads an experiment file, lays `--set path=value` arguments over it, and validates all of
-    /// it, the scenes and machines that it names included, and finds the knobs that it leaves open.
+    /// Reads an experiment file, applies `--set path=value` arguments, validates all of it with its scenes and
+    /// machines, and searches the settings that it leaves open.
     ///
     /// # Errors
     /// The first fault met. Nothing was written.
@@ -154,7 +154,7 @@ impl Planner<'_> {
         Ok(plan)
     }
 
-    /// The name that the results go by: a plain one, which leads nowhere else.
+    /// The name of the results: a plain one, that leads to no other folder.
     fn name(&self) -> Result<String, Fault> {
         let stem = self.path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
         if is_plain(stem) {
@@ -233,7 +233,7 @@ impl Planner<'_> {
         Ok(self.machines.len() - 1)
     }
 
-    /// Where the scene of this point is.
+    /// The index of this point's scene.
     fn scene(&mut self, point: &Point, typed: &Experiment) -> Result<usize, Fault> {
         let found = find(self.folder, FileKind::Scenes, &typed.scene)
             .map_err(|message| self.fault(point, "scene", message))?;
@@ -258,8 +258,8 @@ impl Planner<'_> {
         Ok(())
     }
 
-    /// Finds the knobs of the points that ask for an accuracy; those that differ in their processors
-    /// alone share them.
+    /// Searches settings for the points that ask for an accuracy. Points that differ only in their processors
+    /// share a setting.
     fn tune(&self, drafts: &mut [Draft], scenes: &[Loaded]) -> Result<(), Fault> {
         let mut asking: Vec<(Experiment, usize)> = Vec::new();
         let mut asker = Vec::new();
@@ -335,7 +335,7 @@ impl Planner<'_> {
         })
     }
 
-    /// The scenes, meshed and cut as the points say, each such problem once, and which is whose.
+    /// The problems, each different one once, and the index of each draft's problem.
     fn problems(
         &self,
         drafts: &[Draft],
@@ -366,7 +366,7 @@ impl Planner<'_> {
         Ok((problems.into_iter().collect::<Result<_, Fault>>()?, problem_of))
     }
 
-    /// The experiment file with every default filled in: a file that says the same.
+    /// The experiment file with every default filled in: an equivalent file.
     fn resolved(&self, first: &Experiment) -> Value {
         let mut resolved = self.document.value.clone();
         json::fill(&mut resolved, serde_json::to_value(first).unwrap_or_default());

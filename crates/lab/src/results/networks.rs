@@ -7,8 +7,8 @@ use multicomputer::NetworkModel;
 use crate::planning::plan::{Plan, Run, all_else};
 use crate::run::runner::{Ending, Endings};
 
-/// The finest model of the network on which there is a run, and its time in virtual seconds, by all
-/// that is swept besides the network.
+/// The finest network model with a run, and the run's virtual seconds, by the values of all other swept
+/// fields.
 pub type Finest = BTreeMap<Vec<usize>, (NetworkModel, f64)>;
 
 /// The finest runs of a plan.
@@ -40,9 +40,8 @@ fn of(ending: &Ending) -> Option<(NetworkModel, f64)> {
     Some((rung, figures.time_s?))
 }
 
-/// What each model of a sweep over networks differs by from the finest, at most, and what its runs took
-/// of the host; empty if no sweep goes over networks. Shots are kept from run to run, so that the
-/// models that come first pay for them.
+/// For each model of a sweep over networks, its largest difference from the finest, and the host time of its
+/// runs; empty without such a sweep. Shots are kept from run to run, so the first model pays for casting them.
 pub fn text(plan: &Plan, endings: &Endings) -> String {
     let Some(axis) = plan.axes.iter().position(|axis| axis.place.to_string() == "network") else {
         return String::new();
