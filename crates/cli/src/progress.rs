@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
-use lab::{Event, Plan, Pulse};
+use lab::{Counters, Event, Plan};
 
 use crate::exit::print_note;
 
@@ -41,7 +41,7 @@ struct Counts {
     /// Shots so far of each run that is under way.
     shots: BTreeMap<usize, u64>,
     /// The state of each run that is under way.
-    pulses: BTreeMap<usize, Pulse>,
+    counters: BTreeMap<usize, Counters>,
     /// Shots of the last finished run of each problem: an estimate for its next run.
     expected: BTreeMap<usize, u64>,
 }
@@ -64,7 +64,7 @@ impl Progress {
     }
 
     /// Whether it shows the state of runs under way.
-    pub fn shows_pulse(&self) -> bool {
+    pub fn shows_counters(&self) -> bool {
         !self.bar.is_hidden()
     }
 
@@ -74,9 +74,9 @@ impl Progress {
         match event {
             Event::Found => counts.found += 1,
             Event::Shots { run, shots } => _ = counts.shots.insert(run, shots),
-            Event::Pulse { run, pulse } => _ = counts.pulses.insert(run, pulse),
+            Event::Counters { run, counters } => _ = counts.counters.insert(run, counters),
             Event::Finished { run } => {
-                counts.pulses.remove(&run);
+                counts.counters.remove(&run);
                 let shots = counts.shots.remove(&run).unwrap_or_default();
                 counts.expected.insert(self.plan.runs[run].problem, shots);
                 counts.finished += 1;
@@ -114,30 +114,30 @@ impl Progress {
         }
         self.bar.set_prefix(message);
         let left = left.map_or(String::new(), |left| format!(", {left:#} left"));
-        self.bar.set_message(left + &self.under_way(&counts.pulses));
+        self.bar.set_message(left + &self.under_way(&counts.counters));
     }
 
     /// A table of the runs under way.
-    fn under_way(&self, pulses: &BTreeMap<usize, Pulse>) -> String {
+    fn under_way(&self, counters: &BTreeMap<usize, Counters>) -> String {
         let mut table = String::new();
-        if !pulses.is_empty() {
+        if !counters.is_empty() {
             table +=
                 &row("", ["time, s", "shots", "messages", "busy", "unshot"].map(str::to_owned));
         }
-        for (&run, pulse) in pulses.iter().take(MOST_LINES) {
+        for (&run, counters) in counters.iter().take(MOST_LINES) {
             let mut name = self.plan.label(&self.plan.runs[run]);
             if name.chars().count() > NAME {
                 name = name.chars().take(NAME - 1).chain(['…']).collect();
             }
-            let busy = format!("{}/{}", pulse.busy, pulse.nodes);
-            let unshot = format!("{:.1} %", 100.0 * pulse.unshot);
-            let time = format!("{:.2}", pulse.time_s);
-            let counts = [pulse.shots, pulse.messages].map(|count| count.to_string());
+            let busy = format!("{}/{}", counters.busy, counters.nodes);
+            let unshot = format!("{:.1} %", 100.0 * counters.unshot);
+            let time = format!("{:.2}", counters.time_s);
+            let counts = [counters.shots, counters.messages].map(|count| count.to_string());
             let [shots, messages] = counts;
             table += &row(&name, [time, shots, messages, busy, unshot]);
         }
-        if pulses.len() > MOST_LINES {
-            table += &format!("\nand {} more", pulses.len() - MOST_LINES);
+        if counters.len() > MOST_LINES {
+            table += &format!("\nand {} more", counters.len() - MOST_LINES);
         }
         table
     }

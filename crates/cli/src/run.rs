@@ -134,9 +134,10 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     };
     let viewing = arguments.viewer.clone();
     let progress = Arc::new(Progress::new(Arc::clone(&plan), arguments.quiet));
-    let (fresh, pulse) = (arguments.fresh, progress.shows_pulse());
+    let (fresh, counters) = (arguments.fresh, progress.shows_counters());
     let feed = live.as_ref().map(|live| live.feed());
-    let options = Options { threads, fresh, on, memory, shot_files, traces, viewing, feed, pulse };
+    let options =
+        Options { threads, fresh, on, memory, shot_files, traces, viewing, feed, counters };
     let watch = {
         let progress = Arc::clone(&progress);
         Arc::new(move |event| progress.update(event))

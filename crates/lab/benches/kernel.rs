@@ -46,8 +46,8 @@ mod whole_scene {
     }
 
     fn cast(bencher: Bencher, scene: &str, plain: bool) {
-        let bench =
-            RayBench::new(open(scene), SOURCES, RAYS, 1996).expect("so many rays are possible");
+        let bench = RayBench::new(open(scene), SOURCES, RAYS, 1996)
+            .expect("this number of rays is possible");
         bencher.counter(ItemsCount::new(SOURCES * RAYS)).bench(|| bench.cast(plain));
     }
 }
@@ -81,8 +81,8 @@ fn cast_each(bencher: Bencher, scene: &str, cast: Cast) {
         .map(|number| LocalEnvironment::new(&space, decomposition.block(number), size))
         .filter_map(|environment| source(&space, &environment).map(|source| (environment, source)))
         .collect();
-    let hemisphere =
-        Hemisphere::new(HemisphereKind::Fibonacci, RAYS, true).expect("so many rays are possible");
+    let hemisphere = Hemisphere::new(HemisphereKind::Fibonacci, RAYS, true)
+        .expect("this number of rays is possible");
     let mask = Mask::all(RAYS);
     let shots = || -> Vec<Shot> {
         let shots = sources.iter();

@@ -48,7 +48,7 @@ pub use results::folder::{Results, write_host_times};
 pub use results::live_page::live_page;
 pub use results::networks::text as networks_text;
 pub use run::feed::{Feed, News};
-pub use run::pulse::Pulse;
+pub use run::progress::Counters;
 pub use run::runner::{Endings, Event, Options, Watch, carry_out};
 pub use run::shot_files::ShotFiles;
 pub use run::traces::Traces;

@@ -78,7 +78,7 @@ impl Room {
         self.exactly(patch, |pair| pair.exchange(tolerance).value / area)
     }
 
-    /// The part of the energy of the sources, on average, that `split` and so many rays send elsewhere
+    /// The part of the energy of the sources, on average, that `split` and this number of rays send elsewhere
     /// than `exact` says.
     fn misdirected(&self, pixels: u32, split: SourceSplit, exact: &[Vec<f64>]) -> f64 {
         let hemisphere = Hemisphere::new(HemisphereKind::Fibonacci, pixels, true).unwrap();

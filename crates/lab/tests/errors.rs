@@ -1,4 +1,4 @@
-//! Columns that tell a run's error, and the stored references that it is held against.
+//! Columns of errors, and the stored references that runs are compared with.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
 

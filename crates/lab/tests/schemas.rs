@@ -1,4 +1,4 @@
-//! The schemas that are shipped are those of the code. `UPDATE_SCHEMAS=1` writes them anew.
+//! The committed schemas are those of the code. `UPDATE_SCHEMAS=1` writes them.
 
 #![allow(clippy::unwrap_used, reason = "a test may stop where it stands")]
 

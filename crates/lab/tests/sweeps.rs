@@ -23,7 +23,7 @@ fn carried_out(plan: &Plan, out: &Path, options: &Options) -> (Results, usize, u
     let watch = Arc::new(move |event| match event {
         Event::Found => _ = watched.0.fetch_add(1, Ordering::Relaxed),
         Event::Finished { .. } => _ = watched.1.fetch_add(1, Ordering::Relaxed),
-        Event::Shots { .. } | Event::Pulse { .. } => {}
+        Event::Shots { .. } | Event::Counters { .. } => {}
     });
     let endings = carry_out(plan, out, options, watch).unwrap();
     let results = Results::of(plan, &endings, options).unwrap();

@@ -58,7 +58,7 @@ fn the_error_stays_below_what_was_asked_for() {
 #[test]
 fn knobs_beside_an_accuracy_are_refused() {
     for (more, part) in [
-        (r#", "hemisphere": { "pixels": 64 }"#, "stands beside \"accuracy\""),
+        (r#", "hemisphere": { "pixels": 64 }"#, "is set together with \"accuracy\""),
         (r#", "overshoot": 1.2"#, "expected one of the two"),
     ] {
         let project = project(more);

@@ -1,4 +1,4 @@
-//! Answers that runs are held against: stored references, and dense solutions of the runs' own meshes.
+//! Answers that runs are compared with: stored references, and dense solutions of the runs' own meshes.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -13,16 +13,16 @@ use crate::files::digest::FileDigest;
 use crate::files::find::Found;
 use crate::host::held::held;
 
-/// What of the experiment's field means the dense solution of a run's own mesh.
+/// The value of the experiment's field that means the dense solution of a run's own mesh.
 pub const DENSE: &str = "dense";
 
-/// What of the experiment's field means the stored reference that is named like the scene.
+/// The value that means the stored reference with the scene's name.
 pub const STORED: &str = "stored";
 
-/// Beyond so many patches a dense solution takes too long and too much memory.
+/// Most patches of a dense solution: more take too long and too much memory.
 pub const MOST_DENSE: usize = 4_000;
 
-/// What the errors of a patch's form factors may add up to in a dense solution.
+/// Largest sum of the errors of a patch's form factors in a dense solution.
 const TOLERANCE: f64 = 1e-4;
 
 /// An answer on patches of its own.

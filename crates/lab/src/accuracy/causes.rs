@@ -1,5 +1,5 @@
-//! Where the error of a run comes from: each cause is what changes when it is switched off, the ones
-//! before it being off already.
+//! Where the error of a run comes from. Causes are switched off one after the other; each contributes the change
+//! that switching it off makes.
 
 use std::sync::Arc;
 
@@ -10,15 +10,14 @@ use reference::Centres;
 use virtwall::{KeptShots, Problem};
 
 use crate::accuracy::answer::Answer;
-use crate::accuracy::errors::{Radiosity, Yardstick};
+use crate::accuracy::errors::{ErrorMeasure, Radiosity};
 use crate::engine::error_figures::Causes;
 use crate::engine::knobs;
 use crate::engine::simulator::{self, On};
 use crate::experiment::fields::{Experiment, Stop};
 use crate::files::quantity::Fraction;
 
-/// A local patch is shot down to this share of what the brightest begins with: what is then left is
-/// no cause any more.
+/// Threshold of a patch, as a share of the brightest, at which all counts as shot.
 const ALL_SHOT: &str = "0.0001 %";
 
 /// A run whose error is to be explained.
@@ -34,14 +33,14 @@ pub struct Explained<'a> {
 }
 
 impl Explained<'_> {
-    /// Takes the run's error apart: against `yardstick`, by way of the dense solution of its own mesh.
+    /// The parts of the run's error, by way of the dense solution of its own mesh.
     ///
     /// # Errors
-    /// Why a run of those that this takes did not end.
+    /// Why one of the additional runs did not end.
     pub fn causes(
         &self,
         radiosity: &Radiosity,
-        yardstick: &Yardstick,
+        measure: &ErrorMeasure,
         dense: &Answer,
     ) -> Result<Causes, String> {
         let all_shot = Experiment {
@@ -61,9 +60,9 @@ impl Explained<'_> {
             self.centres(dense).solve(),
             dense.radiosity.clone(),
         ];
-        let mut means: Vec<Vec<Rgb>> = steps.iter().map(|step| yardstick.means(step)).collect();
-        means.push(yardstick.radiosity().to_vec());
-        let part = |step: usize| yardstick.between(&means[step], &means[step + 1]).relative_l2;
+        let mut means: Vec<Vec<Rgb>> = steps.iter().map(|step| measure.means(step)).collect();
+        means.push(measure.radiosity().to_vec());
+        let part = |step: usize| measure.between(&means[step], &means[step + 1]).relative_l2;
         Ok(Causes { stopping: part(0), directions: part(1), sampling: part(2), mesh: part(3) })
     }
 
@@ -76,7 +75,7 @@ impl Explained<'_> {
         Ok(radiosity.concat())
     }
 
-    /// What shooting from the run's own points finds with a ray in every direction.
+    /// The system of shooting from the run's own points with a ray in every direction.
     fn centres(&self, dense: &Answer) -> Centres {
         let space = &self.problem.space;
         let split = knobs::shooting(self.point).split;

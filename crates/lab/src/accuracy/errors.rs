@@ -12,21 +12,21 @@ use crate::engine::error_figures::ErrorFigures;
 /// Radiosities of a problem's patches, by environment.
 pub type Radiosity = [Vec<Rgb>];
 
-/// An answer, and how its patches lie on those of a problem.
-pub struct Yardstick {
+/// Measures errors against an answer: the answer, and the overlaps of its patches with a problem's.
+pub struct ErrorMeasure {
     answer: Arc<Answer>,
     overlaps: Overlaps,
 }
 
-impl Yardstick {
-    /// Lays an answer on a problem.
-    pub fn new(answer: &Arc<Answer>, problem: &Problem) -> Yardstick {
+impl ErrorMeasure {
+    /// For the solutions of a problem.
+    pub fn new(answer: &Arc<Answer>, problem: &Problem) -> ErrorMeasure {
         let own = Patches::of_all(&problem.space, &problem.environments);
         let overlaps = Overlaps::new(&answer.patches, &own);
-        Yardstick { answer: Arc::clone(answer), overlaps }
+        ErrorMeasure { answer: Arc::clone(answer), overlaps }
     }
 
-    /// What the answer says, on its own patches.
+    /// The answer's radiosities, on its own patches.
     pub fn radiosity(&self) -> &[Rgb] {
         &self.answer.radiosity
     }

@@ -1,28 +1,28 @@
-//! All settings of the knobs on one mesh: what each costs and errs, told from a few pilot runs.
+//! All settings on one mesh, with their costs and errors as predicted from a few pilot runs.
 //!
-//! Runs that differ in one knob alone differ by the error of that knob, and by the noise of their directions,
-//! which is known and taken off; what witnesses find beyond is the mesh's. Laws that were measured elsewhere
-//! carry each cause to settings that were not run: directions fall with the power 0.79 of their number, centre
-//! sampling with the square of the parts' size, meshes with the patches' size.
+//! Runs that differ in one setting differ by its error and by the noise of their directions, which is known and
+//! subtracted. The rest of the error that witnesses estimate is that of the mesh. Laws predict each cause for settings
+//! that were not run: the error of directions falls with their number to the power 0.79, that of centre sampling with
+//! the square of the parts' size, that of the mesh with the patches' size.
 
 use crate::accuracy::pilot::{Knobs, Pilot, Pilots, threshold};
 use crate::accuracy::tuned::Causes;
 use crate::engine::simulator::Stopped;
 
-/// By which power of the rays the error of the default directions falls.
+/// Exponent of the number of rays with which the error of the default directions falls.
 const DIRECTIONS_POWER: f64 = 0.79;
 
 /// Rays a source of the first pilots.
 const FIRST_PIXELS: u32 = 1_024;
 
-/// The most rays a source of any.
+/// Most rays a source of any setting.
 const MOST_PIXELS: u32 = 1 << 17;
 
-/// Steps of the threshold of the first pilot, and at most.
+/// Steps of the threshold: of the first pilot run, and at most.
 const FIRST_STEPS: usize = 6;
 const MOST_STEPS: usize = 48;
 
-/// Over-shooting that is tried.
+/// Over-shooting factors that are tried.
 const OVERSHOOTS: [f64; 2] = [1.0, 1.3];
 
 /// Sources a patch, along each direction, that are tried.
@@ -31,24 +31,24 @@ const SPLITS: [u32; 6] = [1, 2, 3, 4, 6, 8];
 /// Settings on one mesh.
 #[derive(Clone)]
 pub struct Family {
-    /// Patches are so many times as long as the experiment, or the scene, asks for.
+    /// Edge of a patch over that of the experiment or the scene.
     pub mesh: f64,
     curves: Vec<Curve>,
-    /// The error of the directions with so many pixels.
+    /// The error of the directions, and the number of pixels it belongs to.
     directions: (f64, u32),
     /// The error of shooting from centres of whole patches.
     centre: f64,
     /// The error of patches of one radiosity each.
     of_mesh: f64,
-    /// A run's time over that with the first number of pixels: this, and so much a pixel.
+    /// Time of a run over that with the first number of pixels: a fixed part, and a part for each pixel.
     fixed: f64,
     a_pixel: f64,
-    /// By how much causes but stopping, and times, have come out larger than told here.
+    /// Factors by which errors without stopping, and times, were larger than predicted.
     error_correction: f64,
     time_correction: f64,
 }
 
-/// What stopping at each step of the threshold costs and spares, with the first number of pixels.
+/// Error and time of stopping at each step of the threshold, with the first number of pixels.
 #[derive(Clone)]
 struct Curve {
     overshoot: f64,
@@ -57,7 +57,7 @@ struct Curve {
     steps: Vec<(f64, f64)>,
 }
 
-/// A setting with what it is expected to do.
+/// A setting with its predicted errors and time.
 #[derive(Clone, Copy)]
 pub struct Proposal {
     /// The setting.
@@ -71,7 +71,7 @@ pub struct Proposal {
 }
 
 impl Family {
-    /// Finds out by pilot runs, as far as a target makes worth while.
+    /// Fits the laws of a mesh to pilot runs, as far as the target needs.
     ///
     /// # Errors
     /// Why a pilot did not end.
@@ -94,7 +94,7 @@ impl Family {
                 curves.push(Curve { overshoot, ambient, steps });
             }
         }
-        // Other causes are looked at where stopping is not what matters.
+        // Other causes are measured where stopping contributes little.
         let plain = &curves[..2];
         let least =
             |step: usize| if plain[0].steps[step].0 < plain[1].steps[step].0 { 0 } else { 1 };
@@ -110,7 +110,7 @@ impl Family {
         pilots.sharpen(&fine, target * target / 10.0);
         let known = directions * directions + stopping * stopping;
         let rest = (pilots.error(&fine).square - known).max(0.0).sqrt();
-        // Sources cut in four, each with a quarter of the rays: what a patch shoots stays the same.
+        // Sources cut in four, each with a quarter of the rays: a patch casts as many rays as before.
         let mut centre = 0.0;
         if rest > target / 4.0 {
             let cut = pilots.run(&Knobs { split: 2, ..start }, step)?;
@@ -132,8 +132,8 @@ impl Family {
         })
     }
 
-    /// What is to be expected on a mesh so many times as long, without a pilot run there. Assumed: its
-    /// patches are shot as deep, so that time goes with their number.
+    /// Prediction for a mesh whose patches are `times` as long, without a pilot run there. Assumption: they are
+    /// shot down to the same share, so that time is proportional to their number.
     pub fn scaled(&self, times: f64) -> Family {
         Family {
             mesh: self.mesh * times,
@@ -144,12 +144,12 @@ impl Family {
         }
     }
 
-    /// What is wrong whatever the directions and the stop.
+    /// The error that remains whatever the directions and the threshold.
     pub fn rest(&self) -> f64 {
         self.centre.hypot(self.of_mesh)
     }
 
-    /// All settings within reach.
+    /// All settings that can be predicted.
     pub fn settings(&self) -> impl Iterator<Item = Proposal> {
         let pixels = (0..).map(|i| (128.0 * 2.0_f64.powf(f64::from(i) / 2.0)) as u32);
         let pixels = pixels.take_while(|&pixels| pixels <= MOST_PIXELS);
@@ -189,17 +189,17 @@ impl Family {
             .then(|| self.setting(of.knobs.pixels, of.knobs.split, curve, step))
     }
 
-    /// Learns what came of a setting: the square of its error, and its time.
+    /// Corrects the laws by the squared error and the time of a setting that was run.
     pub fn learn(&mut self, proposal: &Proposal, square: f64, time_s: f64) {
         let Causes { stopping, .. } = proposal.causes;
-        let told = Causes { stopping: 0.0, ..proposal.causes }.total();
+        let predicted = Causes { stopping: 0.0, ..proposal.causes }.total();
         let found = (square - stopping * stopping).max(0.0).sqrt();
-        self.error_correction *= (found / told.max(f64::MIN_POSITIVE)).clamp(0.5, 2.0);
+        self.error_correction *= (found / predicted.max(f64::MIN_POSITIVE)).clamp(0.5, 2.0);
         self.time_correction *= time_s / proposal.time_s;
     }
 }
 
-/// A pilot run that stops where little is left, and the error of the estimate of it.
+/// A pilot run that stops where little is left to shoot, and the estimated error of stopping there.
 fn converged(
     pilots: &Pilots,
     knobs: &Knobs,
@@ -213,10 +213,10 @@ fn converged(
         let back = |steps: usize| pilots.solution(&stops[last - steps], true);
         let (after, before) =
             (pilots.difference(&back(0), &back(2)), pilots.difference(&back(2), &back(4)));
-        // What is to come falls from halving to halving as it did, half as fast at best.
+        // Further changes shrink from halving to halving by the same factor, at least 0.5.
         let falls = if before > 0.0 { (after / before).clamp(0.5, 0.9) } else { 0.9 };
         let tail = after * falls / (1.0 - falls);
-        // A halving that hardly a patch lies in changes nothing, and says nothing.
+        // A halving that contains hardly any patch changes nothing.
         let [left, before] = [last, last - 2].map(|step| stops[step].unshot.abs());
         let enough = tail <= target / 4.0 && (left <= target || left < 0.9 * before);
         if enough || last >= MOST_STEPS {
@@ -226,13 +226,12 @@ fn converged(
     }
 }
 
-/// By how much the error of directions falls with so many times the rays.
+/// Factor of the error of directions when rays are multiplied by a factor.
 fn fall(times: f64) -> f64 {
     times.powf(DIRECTIONS_POWER)
 }
 
-/// A difference without what noise does of it; never less than a tenth of it: the noise is an estimate
-/// as well.
+/// A difference without its part from noise; at least a tenth of it, since the noise is an estimate too.
 fn without(difference: f64, noise: f64) -> f64 {
     (difference * difference - noise * noise).max(0.01 * difference * difference).sqrt()
 }

@@ -21,11 +21,11 @@ use crate::open::settings::Settings;
 /// A setting of the knobs that trade accuracy for time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Knobs {
-    /// Patches are so many times as long as the experiment, or the scene, asks for.
+    /// Edge of a patch over that of the experiment or the scene.
     pub mesh: f64,
     /// Rays a source.
     pub pixels: u32,
-    /// A patch is cut into so many sources along each of its two directions.
+    /// Sources of a patch along each of its two directions.
     pub split: u32,
     /// The share of the brightest patch below which none is shot, both on the mesh that is asked for.
     pub threshold: f64,
@@ -58,13 +58,13 @@ impl fmt::Display for Knobs {
     }
 }
 
-/// Witnesses are heard no longer after so many paths.
+/// Most paths of all witnesses together.
 const MOST_PATHS: u64 = 1 << 25;
 
-/// Thresholds at which pilot runs are looked at fall from this share of the brightest patch.
+/// Highest threshold at which pilot runs are evaluated, as a share of the brightest patch.
 const FIRST_THRESHOLD: f64 = 0.1;
 
-/// Steps in which they fall by half.
+/// Steps in which thresholds fall by half.
 const STEPS_A_HALVING: f64 = 2.0;
 
 /// The threshold of a step.
@@ -82,13 +82,13 @@ pub struct Pilot {
 /// Pilot runs of one point of an experiment, on one processor; each is made once.
 pub struct Pilots<'a> {
     base: &'a Experiment,
-    /// As the experiment asks for, without the tuner.
+    /// The settings of the experiment, before the search.
     settings: Settings,
     scene: &'a radiosity::Scene,
     machine: &'a Machine,
     host: Host<'a>,
     witnesses: RefCell<Witnesses>,
-    /// By which the threshold is told.
+    /// The power that thresholds are relative to, W.
     brightest: f64,
     problems: RefCell<Vec<Prepared>>,
     runs: RefCell<Vec<Rc<Pilot>>>,
@@ -100,9 +100,9 @@ pub struct Pilots<'a> {
 pub struct Host<'a> {
     /// Bytes for shots that they share.
     pub memory: usize,
-    /// Threads that follow light.
+    /// Threads that trace paths of light.
     pub threads: usize,
-    /// Hears how many were made.
+    /// Called with the number of pilot runs made.
     pub watch: &'a dyn Fn(usize),
 }
 
@@ -118,7 +118,7 @@ struct Prepared {
 }
 
 impl<'a> Pilots<'a> {
-    /// Of a point.
+    /// Pilot runs of a point.
     ///
     /// # Errors
     /// The field of the experiment at fault.
@@ -138,7 +138,7 @@ impl<'a> Pilots<'a> {
         let space = Space::new(scene.clone(), settings.cells.0);
         let size = PatchSize { reflector, emitter };
         let whole = LocalEnvironment::new(&space, space.grid.whole(), size);
-        // A reference of the same seed would be no judge of what it helped to find.
+        // Independent of the paths of a stored reference, which has the experiment's seed.
         let seed = !base.seed;
         let witnesses = RefCell::new(Witnesses::new(space, whole, seed, host.threads));
         Ok(Pilots {
@@ -222,7 +222,7 @@ impl<'a> Pilots<'a> {
         self.count.get()
     }
 
-    /// What a run that stopped says, with or without the ambient term, W/m².
+    /// Radiosities of a run that stopped, with or without the ambient term, W/m².
     pub fn solution(&self, stop: &Stopped, ambient: bool) -> Vec<Rgb> {
         let witnesses = self.witnesses.borrow();
         let term = if ambient { stop.ambient } else { Rgb::ZERO };
@@ -230,17 +230,18 @@ impl<'a> Pilots<'a> {
         both.map(|(&radiosity, &reflectance)| radiosity + reflectance * term).collect()
     }
 
-    /// How far one solution is from another, relative to what the other says is reflected.
+    /// Difference of two solutions, relative to the reflected light of the second.
     pub fn difference(&self, one: &[Rgb], other: &[Rgb]) -> f64 {
         Difference::between(self.witnesses.borrow().patches(), other, one, other).relative_l2
     }
 
-    /// What witnesses say of a solution's error.
+    /// The error of a solution, as witnesses estimate it.
     pub fn error(&self, solution: &[Rgb]) -> Testimony {
         self.witnesses.borrow().error(solution)
     }
 
-    /// Hears them until they are sure of the square of a solution's error, to `square` or to a tenth.
+    /// Adds paths until the standard error of a solution's squared error is at most `square`, or a tenth of
+    /// that squared error.
     pub fn sharpen(&self, solution: &[Rgb], square: f64) {
         let mut witnesses = self.witnesses.borrow_mut();
         let unsure = |said: Testimony| said.deviation > square.max(0.1 * said.square);
@@ -263,7 +264,7 @@ impl<'a> Pilots<'a> {
                 let problem = problem::problem(self.scene, &settings);
                 let problem = problem.map_err(|(field, message)| format!("{field}: {message}"))?;
                 let own = Patches::of_all(&problem.space, &problem.environments);
-                // What other settings shot is needed no more.
+                // Kept shots of other settings are no longer needed.
                 problems.iter_mut().for_each(|p| p.kept = Arc::new(KeptShots::new(0)));
                 problems.push(Prepared {
                     mesh: knobs.mesh,
@@ -280,7 +281,7 @@ impl<'a> Pilots<'a> {
     }
 }
 
-/// What the brightest patch has to shoot at the start, W.
+/// Power that the brightest patch has to shoot at the start, W.
 fn brightest(problem: &Problem) -> f64 {
     let powers = problem.environments.iter().flat_map(|environment| {
         let patches = 0..environment.patches.len() as u32;

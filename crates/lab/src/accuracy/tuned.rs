@@ -1,32 +1,32 @@
-//! A setting of the knobs that was found, what it should give, and why it is no other.
+//! A setting that was found, and the error and time predicted for it.
 
 use crate::accuracy::pilot::Knobs;
 
 /// A setting that was found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tuned {
-    /// What was asked for.
+    /// The error asked for.
     pub target: f64,
     /// The setting.
     pub knobs: Knobs,
-    /// Its error, as witnesses say.
+    /// Its error, as witnesses estimate it.
     pub error: f64,
-    /// The standard error of what they say.
+    /// The standard error of that estimate.
     pub deviation: f64,
-    /// What makes it up, by the laws that led there.
+    /// Its parts, as the laws predict them.
     pub predicted: Causes,
     /// Its virtual time on one processor, seconds.
     pub time_s: f64,
     /// The least time of a sweep's runs below the target, if there is such a sweep, seconds.
     pub sweep_time_s: Option<f64>,
-    /// Pilot runs that it took to find.
+    /// Pilot runs needed to find it.
     pub pilots: usize,
 }
 
 /// Errors by cause, each relative to what is reflected; estimates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Causes {
-    /// A hemisphere has so many directions and no more.
+    /// A hemisphere has a finite number of directions.
     pub directions: f64,
     /// Patches shoot from the centres of their parts.
     pub centre: f64,
@@ -47,7 +47,7 @@ impl Causes {
         ]
     }
 
-    /// All together: they know nothing of each other.
+    /// The total: causes are independent.
     pub fn total(&self) -> f64 {
         self.named().iter().map(|(_, error)| error * error).sum::<f64>().sqrt()
     }

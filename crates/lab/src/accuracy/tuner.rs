@@ -1,26 +1,26 @@
-//! Finds the cheapest setting of the knobs whose estimated error stays below a target: no more than a
-//! scene needs.
+//! Finds the cheapest setting whose estimated error stays below a target.
 //!
-//! A few cheap pilot runs tell what settings may do; the cheapest that promises enough is tried, witnesses
-//! say what came of it, and that corrects what is expected of the others, until none promises to be cheaper.
+//! Laws fitted to a few cheap pilot runs predict error and time of all settings. The cheapest that is predicted to
+//! reach the target is run, witnesses estimate its error, and the result corrects the predictions, until no
+//! setting is predicted to be cheaper.
 
 use crate::accuracy::family::{Family, Proposal};
 use crate::accuracy::pilot::{Knobs, Pilots};
 use crate::accuracy::tuned::Tuned;
 
-/// The share of the target that is aimed at.
+/// Predicted errors are to stay below this share of the target.
 const AIM: f64 = 0.9;
 
-/// How sure witnesses are to be of the square of an error, as a share of the target's.
+/// Standard error of the estimated squared error, as a share of the squared target.
 const SURENESS: f64 = 0.05;
 
-/// Standard errors by which they must say less than the target.
+/// Standard errors by which the estimate must be below the target.
 const SURE: f64 = 3.0;
 
-/// What another trial must promise to cost, over the cheapest setting found.
+/// Predicted cost of another trial, over that of the cheapest setting found, at most.
 const WORTH_WHILE: f64 = 0.9;
 
-/// Settings that are tried at most.
+/// Most settings that are tried.
 const MOST_TRIALS: usize = 12;
 
 /// Steps of the threshold that a trial goes on beyond the proposed one.
@@ -31,10 +31,10 @@ struct Search<'a> {
     pilots: &'a Pilots<'a>,
     target: f64,
     families: Vec<Family>,
-    /// What was tried, down to which step.
+    /// Settings tried, and down to which step.
     tried: Vec<(Knobs, usize)>,
     best: Option<Tuned>,
-    /// The least that witnesses, or else pilot runs, promised.
+    /// The least error estimated by witnesses, or else predicted.
     least: f64,
 }
 
@@ -71,7 +71,7 @@ fn families(pilots: &Pilots, target: f64) -> Result<Vec<Family>, String> {
 }
 
 impl Search<'_> {
-    /// The cheapest setting that promises enough and was not tried; of which family.
+    /// The cheapest setting that is predicted to reach the target and was not tried, with its family.
     fn propose(&mut self) -> Option<(usize, Proposal)> {
         let enough = self.best.map_or(f64::INFINITY, |best| WORTH_WHILE * best.time_s);
         let mut cheapest: Option<(usize, Proposal)> = None;
@@ -99,7 +99,7 @@ impl Search<'_> {
         !self.tried.iter().any(known)
     }
 
-    /// Runs a setting and looks at it wherever it might stop.
+    /// Runs a setting and evaluates it at every step where it might stop.
     fn attempt(&mut self, family: usize, proposal: &Proposal) -> Result<(), String> {
         let Search { pilots, target, .. } = *self;
         let squared = target * target;

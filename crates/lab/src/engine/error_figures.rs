@@ -10,9 +10,9 @@ pub struct ErrorFigures {
     pub l2: f64,
     /// The greatest of any patch and colour.
     pub maximum: f64,
-    /// What the answer says of its own error.
+    /// The answer's own error.
     pub reference: f64,
-    /// What makes up the first, if that was asked for.
+    /// The parts of the first, if they are asked for.
     pub causes: Option<Causes>,
 }
 
@@ -22,10 +22,10 @@ pub struct ErrorFigures {
 pub struct Causes {
     /// What was not shot, over-shooting and the ambient term included.
     pub stopping: f64,
-    /// Rays in so many directions in place of all.
+    /// Rays in a finite number of directions.
     pub directions: f64,
     /// Shooting from the centres of patches, or of their parts.
     pub sampling: f64,
-    /// What the patches of the run miss of the answer.
+    /// The size of the run's patches.
     pub mesh: f64,
 }

@@ -12,7 +12,7 @@ use crate::engine::start_up::StartUpFigures;
 /// The figures of one run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Figures {
-    /// Virtual seconds until the last node knew of the end; none on real threads.
+    /// Virtual seconds until the last node knows of the end; none on real threads.
     pub time_s: Option<f64>,
     /// Patches that nodes shot from their own local environments.
     pub local_shots: u64,
@@ -26,7 +26,7 @@ pub struct Figures {
     pub update_messages: u64,
     /// Their bytes.
     pub update_bytes: u64,
-    /// Tokens, energy reports and other messages of control.
+    /// Tokens, energy reports and other control messages.
     pub control_messages: u64,
     /// Share of their time that nodes compute, 0 to 1; none on real threads.
     pub busy_fraction: Option<f64>,
@@ -47,22 +47,22 @@ pub struct Figures {
     /// Seconds that processors waited for translations of addresses, all added; none where all are known.
     #[serde(default)]
     pub translating_s: Option<f64>,
-    /// What it tells of its network, if that was asked for.
+    /// Figures of the network, if they are asked for.
     #[serde(default)]
     pub network: Option<NetworkFigures>,
-    /// What it tells of its nodes' memory, where that is modelled.
+    /// Figures of the nodes' memory, where the machine models it.
     #[serde(default)]
     pub memory: Option<NodeMemoryFigures>,
-    /// How far its radiosities are from the answer, if there is one.
+    /// Errors of its radiosities, if there is an answer to compare with.
     #[serde(default)]
     pub errors: Option<ErrorFigures>,
-    /// What it tells of its machine's message layer, if that does anything.
+    /// Figures of the message layer, where the machine models one.
     #[serde(default)]
     pub message_layer: Option<MessageLayerFigures>,
-    /// What it tells of the display, where one is modelled.
+    /// Figures of the display, where the machine models one.
     #[serde(default)]
     pub display: Option<DisplayFigures>,
-    /// What it tells of its start-up, where that is modelled.
+    /// Figures of the start-up, where the machine models it.
     #[serde(default)]
     pub start_up: Option<StartUpFigures>,
 }

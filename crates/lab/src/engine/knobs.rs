@@ -1,4 +1,4 @@
-//! What an experiment says of how a patch is shot beyond what the paper does.
+//! How an experiment's patches are shot where it goes beyond the paper.
 
 use virtwall::{Shooting, SourceSplit};
 

@@ -1,4 +1,4 @@
-//! What a run tells of its machine's message layer, where that does anything.
+//! Figures of the message layer, where the machine models one.
 
 use multicomputer::{LayerAccount, Machine, MessageLayer};
 use serde::{Deserialize, Serialize};
@@ -22,7 +22,7 @@ pub struct MessageLayerFigures {
     pub buffer_bytes_most: u64,
 }
 
-/// Whether results tell of a machine's message layer: whether it does anything.
+/// Whether results have figures of the message layer: whether the machine models one.
 pub fn tells(machine: &Machine) -> bool {
     machine.message_layer != MessageLayer::default()
 }

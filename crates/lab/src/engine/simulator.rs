@@ -1,4 +1,4 @@
-//! The one door to the simulator: beyond it nothing here knows how a kernel or a link works.
+//! Calls the simulator: no other folder of this crate does.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -199,8 +199,8 @@ pub fn stops(
 /// Shots after which a scene counts as solved.
 const MOST_SHOTS: u64 = 5_000;
 
-/// The light in a problem of one environment when less than a part of it is unshot, or after so many
-/// shots; and the part that is unshot.
+/// The light in a problem of one environment when less than the share `unshot` is unshot, or after
+/// [`MOST_SHOTS`]; and the share that is unshot.
 pub fn solved(problem: &Problem, unshot: f64) -> (Light, f64) {
     let whole = &problem.environments[0];
     let (light, _) =

@@ -1,9 +1,9 @@
-//! What a run tells of its start-up, where that is modelled.
+//! Figures of the start-up, where the machine models it.
 
 use serde::{Deserialize, Serialize};
 use virtwall::StartUpReport;
 
-/// How the last compute node to be ready came to be so, in seconds.
+/// Start-up of the compute node that is ready last, in seconds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StartUpFigures {
     /// Until it was ready.

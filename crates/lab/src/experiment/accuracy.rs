@@ -1,4 +1,4 @@
-//! What an experiment asks for in place of knobs.
+//! The field `accuracy`: an error to reach, in place of the settings that decide it.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::files::WrongField;
 
-/// The error that results are to stay below; the knobs that trade accuracy for time are found.
+/// The error that results are to stay below; the settings that trade accuracy for time are found.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AccuracyFields {
@@ -14,13 +14,12 @@ pub struct AccuracyFields {
     /// as 0.03: the column error_l2 of a run that has a reference. From 0.0001 to 1.
     pub relative_l2: f64,
     /// A runs.csv of a sweep through many settings of the same scenes, as a path from this file: columns
-    /// sweep_time_s, its least time below the error, and cost_over_sweep tell how near what was found
-    /// comes to that.
+    /// sweep_time_s, its least time below the error, and cost_over_sweep compare the setting found with it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sweep: Option<String>,
 }
 
-/// The fields that it takes the place of.
+/// The fields that it replaces.
 const REPLACED: [&str; 6] = [
     "hemisphere.directions",
     "hemisphere.pixels",
@@ -31,7 +30,7 @@ const REPLACED: [&str; 6] = [
 ];
 
 impl AccuracyFields {
-    /// Refuses what nobody means, and knobs beside it in the experiment that it stands in.
+    /// Refuses an error out of range, and an experiment that also sets what it replaces.
     ///
     /// # Errors
     /// The field, and what is wrong with it.
@@ -44,7 +43,7 @@ impl AccuracyFields {
             let pointer = format!("/{}", field.replace('.', "/"));
             experiment.pointer(&pointer).is_some()
         };
-        let message = "stands beside \"accuracy\", which finds it; expected one of the two";
+        let message = "is set together with \"accuracy\", which finds it; expected one of the two";
         match REPLACED.into_iter().find(set) {
             None => Ok(()),
             Some(field) => Err((field, message.to_owned())),

@@ -28,7 +28,7 @@ pub const UNSWEPT: [&str; 4] = ["$schema", "title", "compare_with", "plots"];
 #[serde(deny_unknown_fields)]
 #[schemars(title = "Virtwall experiment")]
 pub struct Experiment {
-    /// Where this schema lies, for editors.
+    /// Path of this schema, for editors.
     #[serde(rename = "$schema", default, skip_serializing_if = "Option::is_none")]
     pub schema: Option<String>,
     /// What the experiment shows, for people.
@@ -94,30 +94,29 @@ pub struct Experiment {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 8, max = 16))]
     pub mask_bits: Option<u32>,
-    /// Into how many sources a patch is cut, where things near it deserve that.
+    /// Number of sources that a patch is cut into, where other polygons are near.
     #[serde(default, skip_serializing_if = "SplitFields::is_none")]
     pub source_split: SplitFields,
-    /// How much a patch that does not emit shoots, over what it has not shot: what is still to come
-    /// is shot in advance, from 1 to less than 2.
+    /// Over-shooting: energy that a patch without emission shoots, over its unshot energy, from 1 to less than
+    /// 2. It shoots in advance what it is still to receive.
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub overshoot: f64,
-    /// Whether radiosities are told with an estimate of what the light that was not shot would add,
-    /// the ambient term. It changes nothing but their errors.
+    /// Whether radiosities include the ambient term: an estimate of what the light that was not shot would add.
+    /// It changes only their errors.
     #[serde(default, skip_serializing_if = "is_false")]
     pub ambient: bool,
-    /// What radiosities are held against: "dense", the dense solution of the run's own mesh; "stored",
+    /// What radiosities are compared with: "dense", the dense solution of the run's own mesh; "stored",
     /// results/references/<scene>.json as `virtwall reference` stores it; the name of another one
     /// there, or a path. With it come the columns error_l2, error_max and reference_error, all
     /// relative to the root mean square of what is reflected.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reference: Option<String>,
-    /// Whether to take each run's error apart, by some more runs: columns error_stopping,
+    /// Whether to find the parts of each run's error, by additional runs: columns error_stopping,
     /// error_directions, error_sampling and error_mesh. It needs a "reference".
     #[serde(default, skip_serializing_if = "is_false")]
     pub error_causes: bool,
-    /// The error that results are to stay below: the knobs that trade accuracy for time are found by
-    /// pilot runs, for each scene the cheapest that will do, and stand in the columns from target_l2
-    /// on.
+    /// The error that results are to stay below. Pilot runs find the cheapest setting for each scene; it is
+    /// described in the columns from target_l2 on.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub accuracy: Option<AccuracyFields>,
     /// Which source a node shoots next. Choice C4: §3.2 says the most unshot energy, §4.2.2 the
@@ -147,15 +146,15 @@ pub struct Experiment {
     /// Whether compute nodes send radiosity updates to the service node. Paper: Figure 6.
     #[serde(default = "yes")]
     pub radiosity_updates: bool,
-    /// Whether runs use the shots of others again. It changes no result, only what
-    /// the host takes: off where that is to be measured, so that no run lives on another's work.
+    /// Whether runs reuse the shots of others. It changes no result, only host times: set it to false to
+    /// measure them.
     #[serde(default = "yes", skip_serializing_if = "is_true")]
     pub reuse_shots: bool,
     /// Seed of every random choice.
     #[serde(default = "default_seed")]
     pub seed: u64,
     /// A CSV file, relative to this one, with the columns scene, processors, time_s and speed_up:
-    /// published figures to stand beside ours.
+    /// published figures to compare ours with.
     #[serde(default)]
     pub compare_with: Option<String>,
     /// What to draw. Lists are plain lists here, they sweep nothing.
@@ -220,8 +219,8 @@ pub struct Plot {
     /// Whether the vertical axis is logarithmic.
     #[serde(default)]
     pub log_y: bool,
-    /// Whether to draw, in place of lines from point to point, the power law that comes nearest to
-    /// a line's points, and to tell its exponent. Both axes are logarithmic then.
+    /// Whether to draw, in place of lines from point to point, the power law fitted to a line's
+    /// points, and to name its exponent. Both axes are logarithmic then.
     #[serde(default, skip_serializing_if = "is_false")]
     pub power_law: bool,
     /// Whether to draw, in place of lines from point to point, lines through those points only that no
@@ -254,7 +253,7 @@ impl Plot {
     }
 }
 
-/// A field that is false by default is not told.
+/// Leaves out a field that is false, its default.
 pub fn is_false(value: &bool) -> bool {
     !value
 }
@@ -279,12 +278,12 @@ fn yes() -> bool {
     true
 }
 
-/// A field that is as it is by default is not told.
+/// Leaves out a field that has its default.
 fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
 
-/// A field that is true by default is not told either.
+/// Leaves out a field that is true, its default.
 fn is_true(value: &bool) -> bool {
     *value
 }

@@ -1,4 +1,4 @@
-//! The hemisphere over a source, as an experiment says it.
+//! The field `hemisphere`.
 
 use radiosity::HemisphereKind;
 use schemars::JsonSchema;
@@ -23,11 +23,11 @@ pub struct Hemisphere {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1))]
     pub least_pixels: Option<u32>,
-    /// Whether the directions are turned about the normal by an angle of each source's own, so
-    /// that no ray runs along a plane by habit.
+    /// Whether the directions are rotated about the normal by a different angle at each source, so that no
+    /// ray runs along a plane systematically.
     pub rotated: bool,
-    /// Whether the directions lie over each source by its place in the scene, and so turn with the
-    /// scene, rather than by the axes: turned by 90° a scene then has the same light to the last digits.
+    /// Whether the directions are oriented by the source's position in the scene instead of the axes: a scene
+    /// rotated by 90° then has the same light to the last digits.
     pub by_place: bool,
 }
 

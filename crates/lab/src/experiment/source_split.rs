@@ -11,8 +11,8 @@ pub struct SplitFields {
     /// a hemisphere of its own. 1: patches shoot from their centres, as the paper's do.
     #[schemars(range(min = 1, max = 64))]
     pub most: u32,
-    /// Cut only as far as need be for nothing in front of a patch to be nearer to its centre than so
-    /// many edges of its parts. Default: all patches are cut into "most".
+    /// Cut a patch only until nothing in front of it is nearer to its centre than this number of edges of
+    /// its parts. Default: all patches are cut into "most".
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nearer_than: Option<f64>,
 }

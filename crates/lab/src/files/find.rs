@@ -1,11 +1,11 @@
-//! Where scenes and machines lie: names stand for files in `scenes/` and `machines/`.
+//! Finds scenes, machines and references by name, in `scenes/`, `machines/` and `results/references/`.
 
 use config::unknown;
 use std::path::{Path, PathBuf};
 
 /// A kind of files that go by their names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shelf {
+pub enum FileKind {
     /// Scene descriptions.
     Scenes,
     /// Machine descriptions.
@@ -14,21 +14,21 @@ pub enum Shelf {
     References,
 }
 
-impl Shelf {
+impl FileKind {
     fn noun(self) -> &'static str {
         match self {
-            Shelf::Scenes => "scene",
-            Shelf::Machines => "machine",
-            Shelf::References => "reference",
+            FileKind::Scenes => "scene",
+            FileKind::Machines => "machine",
+            FileKind::References => "reference",
         }
     }
 
     /// Its folder, beside that of the file that names it.
     fn folder(self) -> &'static str {
         match self {
-            Shelf::Scenes => "scenes",
-            Shelf::Machines => "machines",
-            Shelf::References => "results/references",
+            FileKind::Scenes => "scenes",
+            FileKind::Machines => "machines",
+            FileKind::References => "results/references",
         }
     }
 }
@@ -56,12 +56,12 @@ pub fn named_from(folder: &Path, name: &str) -> Result<PathBuf, String> {
 }
 
 /// Finds what the name or path `name` in a file in `folder` means. A name is looked up in
-/// the shelf's folder beside the file's folder, then in the current folder; a path (with a
+/// the folder of that kind beside the file's folder, then in the current folder; a path (with a
 /// slash or an ending) is relative to `folder`, else to the current folder.
 ///
 /// # Errors
 /// If there is no such file: a message that lists the names there are.
-pub fn find(folder: &Path, shelf: Shelf, name: &str) -> Result<Found, String> {
+pub fn find(folder: &Path, kind: FileKind, name: &str) -> Result<Found, String> {
     if name.contains(['/', '\\']) || name.ends_with(".json") || name.ends_with(".obj") {
         return [folder.join(name), PathBuf::from(name)]
             .into_iter()
@@ -72,18 +72,18 @@ pub fn find(folder: &Path, shelf: Shelf, name: &str) -> Result<Found, String> {
                 format!("\"{name}\": no such file; expected a path from {}", from.display())
             });
     }
-    let lies_in = shelf.folder();
-    let shelves = [beside(folder).join(lies_in), PathBuf::from(lies_in)];
+    let inside = kind.folder();
+    let folders = [beside(folder).join(inside), PathBuf::from(inside)];
     let file = format!("{name}.json");
     if !name.is_empty()
-        && let Some(path) = shelves.iter().map(|s| s.join(&file)).find(|path| path.is_file())
+        && let Some(path) = folders.iter().map(|s| s.join(&file)).find(|path| path.is_file())
     {
-        return Ok(Found { path, label: format!("{lies_in}/{file}") });
+        return Ok(Found { path, label: format!("{inside}/{file}") });
     }
-    let mut known: Vec<String> = shelves.iter().flat_map(|shelf| names(shelf)).collect();
+    let mut known: Vec<String> = folders.iter().flat_map(|folder| names(folder)).collect();
     known.sort();
     known.dedup();
-    Err(unknown(shelf.noun(), name, &known))
+    Err(unknown(kind.noun(), name, &known))
 }
 
 /// The folder that holds `folder`.

@@ -1,4 +1,4 @@
-//! The host's clock: how long we took, for people to know. No result depends on it.
+//! The host's clock. No result depends on it.
 
 use std::time::Instant;
 
@@ -30,7 +30,7 @@ impl HostClock {
     }
 }
 
-/// Something that is due every so many host seconds.
+/// Something that is due at intervals of host time.
 pub struct Interval {
     clock: HostClock,
     every: f64,
@@ -38,7 +38,7 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// Of so many seconds; due at once.
+    /// Of this number of seconds; due at once.
     pub fn new(every: f64) -> Interval {
         Interval { clock: HostClock::start(), every, due: 0.0 }
     }
@@ -54,7 +54,7 @@ impl Interval {
     }
 }
 
-/// What the host took for one run.
+/// Host times of one run.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct HostTimes {
     /// CPU seconds of the thread that did it; what other threads did for it is not among them.

@@ -1,8 +1,8 @@
-//! How much memory this host can spare.
+//! Free memory of the host.
 
 use std::fs;
 
-/// Half of the memory that is free, bytes. Where the system does not tell, 1 GiB.
+/// Half of the memory that is free, bytes. If the system does not say, 1 GiB.
 pub fn half_of_free_memory() -> usize {
     let free = [available(), left_to_group()].into_iter().flatten().min();
     free.map_or(1 << 30, |free| free / 2)

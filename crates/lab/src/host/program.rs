@@ -1,4 +1,4 @@
-//! This program, by the name under which it saves and keeps things.
+//! A digest of this program, which names what it saves.
 
 use std::fs::File;
 use std::io::{self, Read as _};

@@ -1,4 +1,4 @@
-//! What a file is, and whether it is right.
+//! Which kind of file a file is, and whether it is valid.
 
 use std::path::Path;
 

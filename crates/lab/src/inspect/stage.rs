@@ -12,7 +12,7 @@ use virtwall::{KeptShots, Problem};
 
 use crate::engine::simulator::{self, Light};
 use crate::experiment::fields::Experiment;
-use crate::files::find::{Shelf, find};
+use crate::files::find::{FileKind, find};
 use crate::open::problem;
 use crate::open::scene::Scene;
 use crate::open::settings::Settings;
@@ -23,31 +23,30 @@ use crate::planning::preparing::Preparing;
 pub struct Stage {
     /// What it is, for people.
     pub title: String,
-    /// The run that lights it; none if the scene is solved by itself.
+    /// The run that lights it; none if the scene is solved without a run.
     pub run: Option<StagedRun>,
     problem: Arc<Problem>,
 }
 
-/// A run that can be looked at, as often as one likes: it is made again each time, and its shots are
-/// kept.
+/// A run that can be looked at repeatedly: it is simulated again each time, with kept shots.
 pub struct StagedRun {
     /// Its row in the results, from 1.
     pub row: usize,
-    /// Files that say something else than when the results were made.
+    /// Files that have changed since the results were made.
     pub changed: Vec<String>,
     point: Experiment,
     machine: Machine,
     kept: Arc<KeptShots>,
 }
 
-/// Rays a shot of a scene that is solved by itself.
+/// Rays a shot where the scene is solved without a run.
 const PIXELS: u32 = 4_096;
 
 /// Which run of an experiment.
 pub struct Which<'a> {
-    /// `path=value` arguments that are laid over the experiment.
+    /// `path=value` arguments that change the experiment.
     pub set: &'a [String],
-    /// Its row in the results, from 1; the last one if none is said.
+    /// Its row in the results, from 1; the last one by default.
     pub row: Option<usize>,
 }
 
@@ -76,7 +75,7 @@ impl Stage {
     }
 
     fn of_scene(name: &str) -> Result<Stage, Fault> {
-        let found = find(Path::new("."), Shelf::Scenes, name).map_err(Fault::complete)?;
+        let found = find(Path::new("."), FileKind::Scenes, name).map_err(Fault::complete)?;
         let scene = Scene::load(&found)?;
         let fault = |(_, message)| Fault::of_file(&found.label, message);
         let mut whole = Experiment::of_one_environment(name);
@@ -87,7 +86,7 @@ impl Stage {
         Ok(Stage { title, run: None, problem })
     }
 
-    /// The run is made again from the experiment that the results say they are of.
+    /// The run is simulated again from the experiment in the manifest.
     fn of_results(folder: &Path, which: &Which) -> Result<Stage, Fault> {
         let path = folder.join("manifest.json");
         let mut document = Document::read(&path)?;

@@ -1,5 +1,4 @@
-//! The runs of an experiment one by one, on its own scene or on another: for those who look at the
-//! light rather than at a table.
+//! Single runs of an experiment, on its own scene or on another, for callers that need the light and no table.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -24,7 +23,7 @@ pub struct Trials {
 }
 
 impl Trials {
-    /// Validates an experiment that stands in a part of another file, as if it were the file at `path`.
+    /// Validates an experiment that is part of another file, as if it were the file at `path`.
     ///
     /// # Errors
     /// The first fault met.
@@ -50,7 +49,7 @@ impl Trials {
         axes.map(field).collect::<Vec<_>>().join(", ")
     }
 
-    /// What was mended in the scenes.
+    /// What was corrected in the scenes.
     pub fn warnings(&self) -> &[String] {
         &self.plan.warnings
     }

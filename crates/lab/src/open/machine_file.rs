@@ -7,7 +7,7 @@ use multicomputer::{Machine, with_source};
 use serde_json::Value;
 
 use crate::files::digest::FileDigest;
-use crate::files::find::{Found, Shelf, find};
+use crate::files::find::{FileKind, Found, find};
 
 /// A longer row of machines that extend each other can only be a circle.
 const LONGEST_ROW: usize = 8;
@@ -44,7 +44,7 @@ impl MachineFile {
                 return Err(fault(format!("found \"{base}\"; expected an end of the row")));
             }
             let folder = found.path.parent().unwrap_or(Path::new(""));
-            let base = find(folder, Shelf::Machines, base).map_err(fault)?;
+            let base = find(folder, FileKind::Machines, base).map_err(fault)?;
             let base = MachineFile::within(&base, longest - 1)?;
             let changes = std::mem::replace(&mut document.value, base.value);
             merge(&mut document.value, without_extends(changes));

@@ -1,4 +1,4 @@
-//! A participating medium, as a scene description says it.
+//! A participating medium of a scene description.
 
 use radiosity::glam::DVec3;
 use radiosity::{Bounds, Medium};

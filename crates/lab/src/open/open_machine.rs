@@ -6,7 +6,7 @@ use config::Fault;
 use multicomputer::Machine;
 use serde_json::Value;
 
-use crate::files::find::{Shelf, find};
+use crate::files::find::{FileKind, find};
 use crate::open::machine_file::MachineFile;
 
 /// A machine, and its file.
@@ -26,7 +26,7 @@ impl OpenMachine {
     /// # Errors
     /// What is wrong, and where.
     pub fn load(name: &str) -> Result<OpenMachine, Fault> {
-        let found = find(Path::new("."), Shelf::Machines, name).map_err(Fault::complete)?;
+        let found = find(Path::new("."), FileKind::Machines, name).map_err(Fault::complete)?;
         let MachineFile { machine, value, .. } = MachineFile::load(&found)?;
         Ok(OpenMachine { machine, label: found.label, value })
     }

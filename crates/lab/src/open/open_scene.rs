@@ -1,11 +1,11 @@
-//! A scene outside any experiment: to be counted and looked at.
+//! A scene outside any experiment, for statistics and pictures.
 
 use std::path::Path;
 
 use config::Fault;
 
 use crate::experiment::fields::Experiment;
-use crate::files::find::{Shelf, find};
+use crate::files::find::{FileKind, find};
 use crate::open::scene::Scene;
 use crate::open::settings::Settings;
 
@@ -17,7 +17,7 @@ pub struct OpenScene {
     pub label: String,
     /// The geometry.
     pub scene: radiosity::Scene,
-    /// What was mended on loading.
+    /// What was corrected on loading.
     pub warnings: Vec<String>,
     /// Longest edge of a patch, metres.
     pub patch_size: f64,
@@ -33,7 +33,7 @@ impl OpenScene {
     /// # Errors
     /// What is wrong, and where.
     pub fn load(name: &str) -> Result<OpenScene, Fault> {
-        let found = find(Path::new("."), Shelf::Scenes, name).map_err(Fault::complete)?;
+        let found = find(Path::new("."), FileKind::Scenes, name).map_err(Fault::complete)?;
         let scene = Scene::load(&found)?;
         let whole = Experiment::of_one_environment(name);
         let settings = Settings::of(&whole, &scene)

@@ -1,4 +1,4 @@
-//! Scenes made ready for the simulator, as the settings of an experiment say.
+//! Scenes, meshed and cut for the simulator by the settings of an experiment.
 
 use std::sync::Arc;
 
@@ -18,7 +18,7 @@ pub fn problem(scene: &radiosity::Scene, settings: &Settings) -> Result<Arc<Prob
     Ok(problem_on(scene, settings, 1)?.0)
 }
 
-/// The same on so many threads, and the CPU seconds of all of them.
+/// The same on `threads` threads, and the CPU seconds of all of them.
 ///
 /// # Errors
 /// Those of [`problem`].
@@ -71,14 +71,14 @@ fn cut(scene: &radiosity::Scene, settings: &Settings) -> Result<CutScene, WrongF
     }
 }
 
-/// Those of dimmer sources, each with a quarter of the pixels of the one before.
+/// The hemispheres of dimmer sources, each with a quarter of the pixels of the one before.
 fn smaller_hemispheres(settings: &Settings) -> Result<Vec<Hemisphere>, WrongField> {
     let least = settings.least_pixels.unwrap_or(settings.pixels).max(1);
     let smaller = (1..16).map(|quarters| settings.pixels >> (2 * quarters));
     smaller.take_while(|&pixels| pixels >= least).map(|p| hemisphere(settings, p)).collect()
 }
 
-/// A hemisphere of so many pixels.
+/// A hemisphere of `pixels` pixels.
 fn hemisphere(settings: &Settings, pixels: u32) -> Result<Hemisphere, WrongField> {
     let hemisphere = Hemisphere::new(settings.directions, pixels, settings.rotated)
         .map_err(|error| ("hemisphere.pixels", error.to_string()))?;

@@ -1,5 +1,4 @@
-//! Rays from random points of a scene: what the kernel casts when it is measured, and whatever other
-//! tracer is held against it.
+//! Rays from random points of a scene, to compare the speed of the kernel with that of other ray tracers.
 
 use radiosity::glam::DVec3;
 use radiosity::{
@@ -27,7 +26,7 @@ impl RayBench {
     /// Rays from `sources` points that `seed` draws, `rays` from each.
     ///
     /// # Errors
-    /// When a hemisphere cannot have so many rays.
+    /// If a hemisphere cannot have this number of rays.
     pub fn new(
         open: OpenScene,
         sources: u32,

@@ -17,7 +17,7 @@ pub struct Scene {
     pub file: Option<SceneFile>,
     /// Its geometry.
     pub geometry: radiosity::Scene,
-    /// What was mended on loading.
+    /// What was corrected on loading.
     pub warnings: Vec<String>,
     /// The files it was read from.
     pub digests: Vec<FileDigest>,
@@ -71,7 +71,7 @@ impl Scene {
         reader: &dyn Fn(&Path) -> io::Result<Vec<u8>>,
     ) -> Result<Scene, Fault> {
         let folder = path.parent().unwrap_or(Path::new(""));
-        // Materials decide the light as much as the geometry does. What is missing is warned of.
+        // Materials decide the light as much as the geometry does. Missing files give warnings.
         let (digests, bytes_read) = (RefCell::new(Vec::new()), Cell::new(0));
         let digesting = |path: &Path| {
             let bytes = reader(path)?;
@@ -90,7 +90,7 @@ impl Scene {
     }
 }
 
-/// The scene that a description says to make, if it does.
+/// The scene that a description asks to generate, if it does.
 fn made(document: &Document, file: &SceneFile) -> Result<Option<SceneText>, Fault> {
     let Some(made) = file.made else { return Ok(None) };
     let floors = made.building_floors;

@@ -21,7 +21,7 @@ pub fn scene_schema() -> Value {
 #[serde(deny_unknown_fields)]
 #[schemars(title = "Virtwall scene")]
 pub struct SceneFile {
-    /// Where this schema lies, for editors.
+    /// Path of this schema, for editors.
     #[serde(rename = "$schema", default, skip_serializing_if = "Option::is_none")]
     pub schema: Option<String>,
     /// What the scene shows, for people.
@@ -30,7 +30,7 @@ pub struct SceneFile {
     /// The geometry: an OBJ file, relative to this one.
     #[serde(default)]
     pub obj: Option<String>,
-    /// The geometry where it lies in no file but is made whenever it is read.
+    /// Geometry that is generated when the scene is read, in place of a file.
     #[serde(default)]
     pub made: Option<Made>,
     /// Longest edge of a patch, such as "0.30 m".

@@ -1,4 +1,4 @@
-//! How a scene is meshed, cut and lit: the experiment's word first, then the scene file's.
+//! How a scene is meshed, cut and lit: by the experiment's fields, else the scene file's, else automatically.
 
 use radiosity::HemisphereKind;
 use serde::Serialize;
@@ -14,10 +14,10 @@ use crate::open::wall_mesh::WallMesh;
 /// A patch of a bare OBJ file is at most this share of the scene's diagonal long.
 const BARE_PATCHES: f64 = 1.0 / 50.0;
 
-/// More patches than a host's memory holds with ease.
+/// Most patches: more would not fit a usual host's memory.
 const MOST_PATCHES: f64 = 2e7;
 
-/// How a scene is meshed, cut and lit: all that decides what a shot does.
+/// How a scene is meshed, cut and lit: all that decides the result of a shot.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Settings {
     /// The scene, as the experiment names it.
@@ -50,7 +50,7 @@ pub struct Settings {
     /// Bits of an integer of a mask, if other than usual.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mask_bits: Option<u32>,
-    /// Whether they lie by its place.
+    /// Whether they are oriented by its position.
     #[serde(skip_serializing_if = "is_false")]
     pub by_place: bool,
 }

@@ -7,7 +7,7 @@ use crate::experiment::interfaces::VirtualWalls;
 use crate::files::WrongField;
 use crate::files::counts::Pair;
 
-/// A mesh of virtual walls: what of it decides what a shot does.
+/// A mesh of virtual walls: the part of the settings that decides shots.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct WallMesh {
     /// Wall patches along the two axes of an interface.

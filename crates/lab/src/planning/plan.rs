@@ -1,5 +1,4 @@
-//! An experiment file read, expanded and validated, once, at the door: nothing in a plan can be
-//! refused later.
+//! An experiment file, read, expanded and validated. Nothing in a plan is refused later.
 
 use std::sync::Arc;
 
@@ -41,7 +40,7 @@ pub struct Plan {
     pub comparison: Comparison,
     /// What to draw.
     pub plots: Vec<Plot>,
-    /// What was mended in the scenes.
+    /// What was corrected in the scenes.
     pub warnings: Vec<String>,
     /// All files read, each once, by label.
     pub files: Vec<FileDigest>,
@@ -56,7 +55,7 @@ impl Plan {
         sentences
     }
 
-    /// What tells a run from the others: its scene, its processors, and whatever else is swept.
+    /// A label that identifies a run: scene, processors and all other swept fields.
     pub fn label(&self, run: &Run) -> String {
         let plural = if run.point.processors == 1 { "" } else { "s" };
         let mut label = format!("{}, {} processor{plural}", run.point.scene, run.point.processors);
@@ -91,7 +90,7 @@ impl Plan {
         Some(&axis.values[item])
     }
 
-    /// What a run is held against, if anything: a stored answer, or one of `dense`.
+    /// The answer that a run is compared with, if any: a stored one, or one of `dense`.
     pub fn answer(&self, run: &Run, dense: &DenseAnswers) -> Option<Arc<Answer>> {
         run.point.reference.as_ref()?;
         Some(match run.stored {

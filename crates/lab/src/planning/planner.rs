@@ -1,4 +1,4 @@
-//! How a plan is made from an experiment file: every check there is, and nothing loaded twice.
+//! Makes a plan from an experiment file: makes every check, and loads each file once.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -17,7 +17,7 @@ use crate::experiment::machine::open_up;
 use crate::experiment::sweep::{Point, Sweep};
 use crate::files::digest::FileDigest;
 use crate::files::file::{PLAIN, is_plain};
-use crate::files::find::{Found, Shelf, find, named_from};
+use crate::files::find::{FileKind, Found, find, named_from};
 use crate::host::host_clock::HostClock;
 use crate::host::program::program;
 use crate::open::machine_file::MachineFile;
@@ -33,8 +33,8 @@ use crate::table::comparison::Comparison;
 use crate::table::runs_csv::Table;
 
 impl Plan {
-    /// Reads an experiment file, lays `--set path=value` arguments over it, and validates all of
-    /// it, the scenes and machines that it names included, and finds the knobs that it leaves open.
+    /// Reads an experiment file, applies `--set path=value` arguments, validates all of it with its scenes and
+    /// machines, and searches the settings that it leaves open.
     ///
     /// # Errors
     /// The first fault met. Nothing was written.
@@ -87,14 +87,14 @@ struct Planner<'a> {
     preparing: &'a Preparing<'a>,
     scenes: Vec<Found>,
     machines: Vec<Equipment>,
-    /// Which of those, by what the experiment says of it.
+    /// Indices into `machines`, by what the experiment says of the machine.
     machine_of: BTreeMap<String, usize>,
     /// Machine files, by path.
     machine_files: BTreeMap<PathBuf, MachineFile>,
-    /// Which of those stored, by file and scene.
+    /// Indices into `stored`, by file and scene.
     references: BTreeMap<(PathBuf, usize), usize>,
     stored: Vec<Stored>,
-    /// Sweeps that accuracies are held against, by name.
+    /// Sweeps that accuracies are compared with, by name.
     sweeps: BTreeMap<String, (Table, FileDigest)>,
 }
 
@@ -162,7 +162,7 @@ impl Planner<'_> {
         Ok(plan)
     }
 
-    /// The name that the results go by: a plain one, which leads nowhere else.
+    /// The name of the results: a plain one, that leads to no other folder.
     fn name(&self) -> Result<String, Fault> {
         let stem = self.path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
         if is_plain(stem) {
@@ -214,7 +214,7 @@ impl Planner<'_> {
         let stem = || self.scenes[draft.scene].path.file_stem().unwrap_or_default();
         let name =
             if name == answer::STORED { stem().to_string_lossy() } else { Cow::Borrowed(name) };
-        let found = find(self.folder, Shelf::References, &name).map_err(refuse)?;
+        let found = find(self.folder, FileKind::References, &name).map_err(refuse)?;
         let key = (found.path.clone(), draft.scene);
         if let Some(&known) = self.references.get(&key) {
             return Ok(Some(known));
@@ -269,9 +269,9 @@ impl Planner<'_> {
         Ok(self.machines.len() - 1)
     }
 
-    /// Where the scene of this point is.
+    /// The index of this point's scene.
     fn scene(&mut self, point: &Point, typed: &Experiment) -> Result<usize, Fault> {
-        let found = find(self.folder, Shelf::Scenes, &typed.scene)
+        let found = find(self.folder, FileKind::Scenes, &typed.scene)
             .map_err(|message| self.fault(point, "scene", message))?;
         if let Some(known) = self.scenes.iter().position(|scene| scene.path == found.path) {
             return Ok(known);
@@ -280,7 +280,7 @@ impl Planner<'_> {
         Ok(self.scenes.len() - 1)
     }
 
-    /// Checks the accuracy that a point asks for, and reads what it is held against, once.
+    /// Checks the accuracy that a point asks for, and reads the sweep it is compared with, once.
     fn accuracy(&mut self, point: &Point, typed: &Experiment) -> Result<(), Fault> {
         let Some(accuracy) = &typed.accuracy else { return Ok(()) };
         let checked = accuracy.check(&point.value);
@@ -294,8 +294,8 @@ impl Planner<'_> {
         Ok(())
     }
 
-    /// Finds the knobs of the points that ask for an accuracy; those that differ in their processors
-    /// alone share them.
+    /// Searches settings for the points that ask for an accuracy. Points that differ only in their processors
+    /// share a setting.
     fn tune(&self, drafts: &mut [Draft], scenes: &[Loaded]) -> Result<(), Fault> {
         let mut asking: Vec<(Experiment, usize)> = Vec::new();
         let mut asker = Vec::new();
@@ -363,7 +363,7 @@ impl Planner<'_> {
         };
         let threads = self.preparing.threads;
         std::thread::scope(|scope| {
-            // Runs will be saved under the name of this program: meanwhile it reads itself.
+            // Saved runs are named by a digest of this program, which is computed meanwhile.
             if threads > 1 {
                 scope.spawn(program);
             }
@@ -371,7 +371,7 @@ impl Planner<'_> {
         })
     }
 
-    /// The scenes, meshed and cut as the points say, each such problem once, and which is whose.
+    /// The problems, each different one once, and the index of each draft's problem.
     fn problems(
         &self,
         drafts: &[Draft],
@@ -402,7 +402,7 @@ impl Planner<'_> {
         Ok((problems.into_iter().collect::<Result<_, Fault>>()?, problem_of))
     }
 
-    /// The experiment file with every default filled in: a file that says the same.
+    /// The experiment file with every default filled in: an equivalent file.
     fn resolved(&self, first: &Experiment) -> Value {
         let mut resolved = self.document.value.clone();
         fill(&mut resolved, serde_json::to_value(first).unwrap_or_default());

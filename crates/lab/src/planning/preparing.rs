@@ -1,14 +1,14 @@
-//! What may be used to make a plan ready.
+//! How a plan is made: host resources, and a callback for pilot runs.
 
-/// How a plan is made ready. None of it changes the plan.
+/// Host resources for making a plan. None of them changes the plan, except `finding`.
 pub struct Preparing<'a> {
-    /// Threads that make scenes ready and find knobs side by side, at least 1.
+    /// Threads that prepare scenes and search settings in parallel, at least 1.
     pub threads: usize,
     /// Host memory for shots of pilot runs, bytes.
     pub memory: usize,
-    /// Whether to find the knobs that an experiment leaves open; else they stand at their defaults.
+    /// Whether to search the settings that an experiment leaves open; else they have their defaults.
     pub finding: bool,
-    /// Hears of every pilot run: scene, accuracy asked for, pilot runs made for both.
+    /// Called after every pilot run: scene, accuracy asked for, pilot runs made for both.
     pub on_pilot: &'a (dyn Fn(&str, f64, usize) + Sync),
 }
 

@@ -6,10 +6,10 @@ use crate::engine::knobs;
 use crate::experiment::fields::Experiment;
 use crate::files::WrongField;
 
-/// More local environments can only be a slip.
+/// Most local environments: more are taken for a mistake.
 const MOST_ENVIRONMENTS: u32 = 65_536;
 
-/// Refuses more than there is.
+/// Refuses what the machine does not have.
 ///
 /// # Errors
 /// The experiment's field at fault, and what is wrong with it.

@@ -13,7 +13,7 @@ use crate::results::series::{Drawing, Series};
 use crate::table::measure::Measure;
 use crate::table::runs_csv::Table;
 
-/// Drawing units a pixel: plotters rounds coordinates to whole units, which one would see.
+/// Drawing units per pixel: plotters rounds coordinates to whole units, which would be visible.
 const FINE: u32 = 8;
 /// Width of a plot without the names of its lines, and its least height, pixels.
 const SIZE: (u32, u32) = (670, 540);
@@ -56,7 +56,7 @@ pub fn svg(table: &Table, sweeps: &[String], plot: &Plot) -> String {
         [FINE, 1].map(|unit| format!("width=\"{}\" height=\"{}\"", width * unit, height * unit));
     match drawn {
         Ok(()) => text.replacen(&fine, &pixels, 1),
-        // Drawing to memory does not fail; should a plot ever, it says so in its place.
+        // Drawing to memory does not fail. If it should, the file says so.
         Err(error) => {
             format!("<svg xmlns=\"http://www.w3.org/2000/svg\"><desc>{error}</desc></svg>")
         }
@@ -163,7 +163,7 @@ fn draw_series(chart: &mut Chart, series: &Series, colour: RGBColor) -> Drawn {
     Ok(())
 }
 
-/// Each line's name at its right end, moved apart where two would lie on each other.
+/// Each line's name at its right end, moved apart where two would overlap.
 fn draw_names(area: &Area, chart: &Chart, drawing: &Drawing) -> Drawn {
     let ends = drawing.series.iter().enumerate().filter(|(_, series)| !series.name.is_empty());
     let mut ends: Vec<(i32, usize)> = ends
@@ -218,7 +218,7 @@ fn draw_key(area: &Area, chart: &Chart, drawing: &Drawing, ideal: bool, marked: 
     Ok(())
 }
 
-/// Colours come again after the last: names at the lines' ends still tell them apart.
+/// Colours repeat after the last one; names at the lines' ends still distinguish lines.
 fn colour(index: usize) -> RGBColor {
     COLOURS[index % COLOURS.len()]
 }

@@ -1,11 +1,11 @@
-//! The results in the manner of the paper's Table 1, and as text for a terminal.
+//! The results in the layout of the paper's Table 1, and as text for a terminal.
 
 use std::collections::BTreeMap;
 
 use crate::results::summary::{Summary, ratio};
 use crate::table::runs_csv::Table;
 
-/// One line of the table: a run beside what was published of it.
+/// One line of the table: a run and its published figures.
 pub struct Line {
     /// The scene, and the values of what is swept besides: what the lines of a group share.
     pub group: String,
@@ -15,10 +15,10 @@ pub struct Line {
     pub simulated: [String; 2],
     /// Published seconds and speed-up.
     pub paper: [String; 2],
-    /// Simulated over published speed-up; on one processor, where a speed-up is 1 by its meaning,
+    /// Simulated over published speed-up; on one processor, where the speed-up is 1 by definition,
     /// "t" and simulated over published time.
     pub ratio: String,
-    /// How the run ended, if not as it should.
+    /// How the run ended, if it failed or ended too early.
     pub note: String,
 }
 

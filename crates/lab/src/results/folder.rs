@@ -1,4 +1,4 @@
-//! A folder of results: written whole, and read again to be drawn anew.
+//! A folder of results: written, and read again to be redrawn.
 
 use std::fs;
 use std::io;
@@ -17,7 +17,7 @@ use crate::planning::plan::Plan;
 use crate::results::chart;
 use crate::results::console::table_text;
 use crate::results::host_times;
-use crate::results::reels;
+use crate::results::recordings;
 use crate::results::report;
 use crate::results::run_table::run_table;
 use crate::run::runner::{Endings, Options};
@@ -36,14 +36,14 @@ pub struct Results {
 }
 
 impl Results {
-    /// The results of a plan that was carried out so.
+    /// The results of a plan that was carried out with these options.
     ///
     /// # Errors
     /// None is known: all is made in memory.
     pub fn of(plan: &Plan, endings: &Endings, options: &Options) -> io::Result<Results> {
         let table = run_table(plan, endings);
         let manifest = manifest(plan, &table, options.on)?;
-        let recorded = reels::recorded(plan, endings, options.threads.max(1));
+        let recorded = recordings::recorded(plan, endings, options.threads.max(1));
         Ok(Results { table, manifest, recorded })
     }
 
@@ -76,13 +76,13 @@ impl Results {
             }
         }
         let table = Table::from_csv(&bytes).map_err(|error| unreadable(&csv, error))?;
-        // What was recorded stands nowhere but in the report.
+        // Recordings are only in the report.
         let report = fs::read_to_string(folder.join("report.html")).ok();
         let recorded = report.and_then(|html| ReportParts::in_report(&html));
         Ok(Results { table, manifest: document.value, recorded })
     }
 
-    /// Writes all files of results, each whole, and then forgets the runs saved one by one,
+    /// Writes all files of results, each whole, and then deletes the runs saved one by one,
     /// unless some have failed.
     ///
     /// # Errors
@@ -98,8 +98,7 @@ impl Results {
         Ok(())
     }
 
-    /// Draws plots and report into a folder, with the host's times that it holds; returns the names
-    /// of the files.
+    /// Draws plots and report into a folder, with the host times in it; returns the names of the files.
     ///
     /// # Errors
     /// If a file cannot be written.
@@ -147,7 +146,7 @@ impl Results {
     }
 }
 
-/// Everything that says where the results come from, and nothing of the host.
+/// Provenance of the results: everything that decides them, and nothing of the host.
 fn manifest(plan: &Plan, table: &Table, on: On) -> io::Result<Value> {
     let problems = plan.problems.iter().map(|prepared| {
         let mut problem = json!(prepared.settings);
@@ -177,7 +176,7 @@ fn manifest(plan: &Plan, table: &Table, on: On) -> io::Result<Value> {
     Ok(manifest)
 }
 
-/// Writes how long the host took: apart from the results, which do not depend on it.
+/// Writes host times, in a file of their own: results do not depend on them.
 ///
 /// # Errors
 /// If the file cannot be written.

@@ -1,5 +1,5 @@
-//! What the host took for each run, read again to be drawn. It stands apart from the results, which
-//! do not depend on it.
+//! Host times of each run, read again to be drawn. They are in a file of their own: results do not depend on
+//! them.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ use crate::table::runs_csv::Table;
 /// The file in a folder of results.
 pub const FILE: &str = "host-times.json";
 
-/// The results with the host's columns, which are empty where `folder` does not tell them.
+/// The results with columns of host times, which are empty where `folder` does not have them.
 pub fn beside(table: &Table, folder: &Path) -> Table {
     let times = Document::read(&folder.join(FILE)).map_or(Value::Null, |file| file.value);
     let mut table = table.clone();
@@ -28,7 +28,7 @@ pub fn beside(table: &Table, folder: &Path) -> Table {
     table
 }
 
-/// Whether a plot shows what the host took: it is another one each time.
+/// Whether a plot shows host times, which differ each time.
 pub fn shown_in(plot: &Plot) -> bool {
     [&plot.x, &plot.y].iter().any(|text| text.contains(HOST))
 }

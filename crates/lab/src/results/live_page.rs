@@ -6,7 +6,7 @@ use crate::engine::simulator;
 use crate::planning::plan::Plan;
 use crate::results::report;
 
-/// The page, whole, and the blocks that it asks for by name; `updates` is where it hears of runs.
+/// The page, whole, and the blocks that it asks for by name; `updates` is the address of its news of runs.
 pub fn live_page(plan: &Plan, updates: &str) -> (String, LivePage) {
     let runs = plan.runs.iter().map(|run| {
         let problem = &plan.problems[run.problem].problem;

@@ -12,7 +12,7 @@
 //! - [`scale`]: The axes of a plot.
 //! - [`chart`]: Plots as SVG.
 //! - [`report`]: The report page.
-//! - [`reels`]: Recorded runs for the report.
+//! - [`recordings`]: Recorded runs for the report.
 //! - [`live_page`]: The page that follows runs.
 
 pub mod chart;
@@ -23,7 +23,7 @@ pub mod live_page;
 pub mod networks;
 pub mod pareto;
 pub mod power_law;
-pub mod reels;
+pub mod recordings;
 pub mod report;
 pub mod run_table;
 pub mod scale;

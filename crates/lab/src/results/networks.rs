@@ -1,4 +1,4 @@
-//! Runs on several models of the network side by side: what the coarser ones miss, and what each costs.
+//! Network models compared: errors of the coarser ones, and the cost of each.
 
 use std::collections::BTreeMap;
 
@@ -8,8 +8,8 @@ use crate::experiment::machine::NETWORK_MODEL;
 use crate::planning::plan::{Plan, Run, all_else};
 use crate::run::runner::{Ending, Endings};
 
-/// The finest model of the network on which there is a run, and its time in virtual seconds, by all
-/// that is swept besides the network.
+/// The finest network model with a run, and the run's virtual seconds, by the values of all other swept
+/// fields.
 pub type Finest = BTreeMap<Vec<usize>, (NetworkModel, f64)>;
 
 /// The finest runs of a plan.
@@ -24,7 +24,7 @@ pub fn finest(plan: &Plan, endings: &Endings) -> Finest {
     finest
 }
 
-/// Runs that tell of their network, with the model used and the time.
+/// Runs with figures of their network, with the model used and the time.
 fn timed<'a>(
     plan: &'a Plan,
     endings: &'a Endings,
@@ -41,9 +41,8 @@ fn of(ending: &Ending) -> Option<(NetworkModel, f64)> {
     Some((rung, figures.time_s?))
 }
 
-/// What each model of a sweep over networks differs by from the finest, at most, and what its runs took
-/// of the host; empty if no sweep goes over networks. Shots are kept from run to run, so that the
-/// models that come first pay for them.
+/// For each model of a sweep over networks, its largest difference from the finest, and the host time of its
+/// runs; empty without such a sweep. Shots are kept from run to run, so the first model pays for casting them.
 pub fn text(plan: &Plan, endings: &Endings) -> String {
     let Some(axis) = plan.axes.iter().position(|axis| axis.place.to_string() == NETWORK_MODEL)
     else {

@@ -1,4 +1,4 @@
-//! The points of which none is bettered in both ways at once.
+//! Pareto front: points for which no other point is lower in both coordinates.
 
 /// The Pareto front of points with rising x: each has a lower y than all before it.
 pub fn front(points: &[(f64, f64)]) -> Vec<(f64, f64)> {

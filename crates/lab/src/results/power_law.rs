@@ -5,15 +5,15 @@
 pub struct PowerLaw {
     /// y at x = 1.
     pub factor: f64,
-    /// By which power y grows.
+    /// The exponent.
     pub exponent: f64,
     /// Standard error of the exponent; none of two points, which a line always meets.
     pub error: Option<f64>,
 }
 
 impl PowerLaw {
-    /// The law with the least squares of logarithms; `None` if positive points lie over fewer than
-    /// two values of x.
+    /// The law with the least squares of logarithms; `None` if positive points have fewer than two
+    /// values of x.
     pub fn fit(points: &[(f64, f64)]) -> Option<PowerLaw> {
         let positive = points.iter().filter(|(x, y)| *x > 0.0 && *y > 0.0);
         let points: Vec<(f64, f64)> = positive.map(|(x, y)| (x.ln(), y.ln())).collect();

@@ -60,7 +60,7 @@ pub fn html(
     page(&in_words(&manifest["title"]), &viewer_style, &body)
 }
 
-/// A page in the report's style, and some more.
+/// A page in the report's style, with additional style.
 pub fn page(title: &str, style: &str, body: &str) -> String {
     let title = escape(title);
     format!(
@@ -71,7 +71,7 @@ pub fn page(title: &str, style: &str, body: &str) -> String {
     )
 }
 
-/// The viewer: its style, what stands among the text, and what ends the page.
+/// The viewer: its style, its part of the body, and its data at the end of the page.
 fn viewer_parts(recorded: &ReportParts) -> [String; 3] {
     let answers =
         format!("<h2>What happened, and why</h2>\n{}{}", recorded.answers, viewer::MARKUP);
@@ -143,7 +143,7 @@ fn grouped(lines: &[Line]) -> String {
     )
 }
 
-/// What accuracy costs, where runs tell their errors.
+/// What accuracy costs, where runs have errors.
 fn cheapest(runs: &Table, sweeps: &[String]) -> String {
     let cheapest = cheapest::cheapest(runs, sweeps);
     if cheapest.is_empty() {

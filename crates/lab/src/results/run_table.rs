@@ -53,7 +53,7 @@ pub fn run_table(plan: &Plan, endings: &Endings) -> Table {
     Table { columns: header, rows }
 }
 
-/// Times of the runs for which a field is 1, by all that is swept besides it, s.
+/// Times of the runs for which a field is 1, by the values of all other swept fields, s.
 type Times = BTreeMap<Vec<usize>, f64>;
 
 fn times_at_one(

@@ -6,12 +6,12 @@ use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, Value
 
 /// About how many ticks an axis has.
 const TICKS: f64 = 7.0;
-/// So many values may each have a tick.
+/// Most values that each have a tick.
 const FEW: usize = 12;
 /// Least share of the axis between two such ticks.
 const ROOM: f64 = 0.04;
 
-/// An axis: where values lie on it, and its ticks.
+/// An axis: positions of values, and ticks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scale {
     low: f64,

@@ -1,4 +1,4 @@
-//! How near simulated figures come to published ones.
+//! How close simulated figures are to published ones.
 
 use crate::table::runs_csv::Table;
 
@@ -12,7 +12,7 @@ pub struct Summary {
     pub one_processor: Vec<(String, f64)>,
 }
 
-/// How far ratios lie from 1.
+/// How far ratios are from 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spread {
     /// How many there are.

@@ -1,4 +1,4 @@
-//! Runs while they are under way, for whoever follows them.
+//! News of runs that are under way, for live viewers.
 
 use std::sync::Arc;
 
@@ -6,8 +6,8 @@ use viewer::Subscriber;
 
 use crate::host::host_clock::Interval;
 
-/// Given a run, by its index in [`crate::Plan::runs`], and what is new of it, by the thread that simulates:
-/// it has to take it at once.
+/// Receives news of a run, by its index in [`crate::Plan::runs`]. The simulating thread calls it, so it must
+/// return at once.
 pub type Feed = Arc<dyn Fn(usize, News) + Send + Sync>;
 
 /// What is new of a run.
@@ -21,7 +21,7 @@ pub enum News {
 /// Host seconds between parts.
 const BETWEEN_PARTS: f64 = 0.2;
 
-/// One run's way to those who follow.
+/// Passes the news of one run to a feed.
 pub struct Follower {
     run: usize,
     feed: Feed,

@@ -2,7 +2,7 @@
 //!
 //! - [`runner`]: Worker threads that carry out a plan.
 //! - [`queue`]: Which run is next.
-//! - [`pulse`]: The progress of a run in numbers.
+//! - [`progress`]: Progress counters of a run.
 //! - [`feed`]: Runs for live viewers.
 //! - [`saved`]: Finished runs of an interrupted sweep.
 //! - [`shot_files`]: Kept shots in files.
@@ -10,7 +10,7 @@
 //! - [`viewing`]: Which runs the report shows.
 
 pub mod feed;
-pub mod pulse;
+pub mod progress;
 pub mod queue;
 pub mod runner;
 pub mod saved;

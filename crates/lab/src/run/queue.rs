@@ -1,5 +1,5 @@
-//! Which run is next: runs of one problem share the shots that are kept, so that workers had
-//! better share problems out among themselves, and the largest go first.
+//! Which run is next. Runs of one problem share kept shots, so workers spread over the problems; the largest
+//! problem goes first.
 
 use std::sync::Arc;
 
@@ -46,8 +46,8 @@ impl Queue {
         Queue { problems, counts: ShotCounts::default() }
     }
 
-    /// The next run: of the problem with the fewest workers, of those one already begun, of those
-    /// the one with the most patches. The first one of a problem has its shots `kept`.
+    /// The next run: of the problem with the fewest workers, then one already begun, then the one with the
+    /// most patches. `kept` makes the store of shots for the first run of a problem.
     pub fn take(&mut self, kept: impl FnOnce(usize) -> KeptShots) -> Option<Task> {
         let waiting = self.problems.iter_mut().enumerate().filter(|(_, p)| !p.runs.is_empty());
         let (index, problem) =
@@ -58,7 +58,7 @@ impl Queue {
         Some(Task { run, problem: index, kept: Arc::clone(kept) })
     }
 
-    /// Takes note that a run has ended; a problem's kept shots go with its last run.
+    /// Records that a run has ended. A problem's kept shots are dropped after its last run.
     pub fn done(&mut self, task: &Task) {
         let problem = &mut self.problems[task.problem];
         problem.active -= 1;
@@ -67,7 +67,7 @@ impl Queue {
         }
     }
 
-    /// What became of the shots that ended problems asked for.
+    /// Shots that finished problems asked for: found or cast.
     pub fn counts(&self) -> ShotCounts {
         self.counts
     }

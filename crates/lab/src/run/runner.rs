@@ -13,7 +13,7 @@ use virtwall::{Helpers, KeptShots, Memory, Observers, Recording, SharedObserver,
 
 use crate::accuracy::answer::DenseAnswers;
 use crate::accuracy::causes::Explained;
-use crate::accuracy::errors::{Radiosity, Yardstick};
+use crate::accuracy::errors::{ErrorMeasure, Radiosity};
 use crate::engine::error_figures::ErrorFigures;
 use crate::engine::figures::Figures;
 use crate::engine::network;
@@ -22,7 +22,7 @@ use crate::host::held::held;
 use crate::host::host_clock::{HostClock, HostTimes};
 use crate::planning::plan::{Plan, Prepared};
 use crate::run::feed::{Feed, Follower, News};
-use crate::run::pulse::{Heart, Pulse};
+use crate::run::progress::{Counters, ProgressObserver};
 use crate::run::queue::{Queue, Task};
 use crate::run::saved::Saved;
 use crate::run::shot_files::ShotFiles;
@@ -31,7 +31,7 @@ use crate::run::viewing::Viewing;
 
 /// How a plan is carried out. None of it changes what a simulated run finds.
 pub struct Options {
-    /// Threads, at least 1: each does a run; when no run waits any more, it helps with those under way.
+    /// Threads, at least 1. Each carries out a run; when no run waits, it helps with others.
     pub threads: usize,
     /// Whether to forget runs that an interrupted sweep has finished.
     pub fresh: bool,
@@ -45,33 +45,33 @@ pub struct Options {
     pub traces: Option<Traces>,
     /// Which runs the report's viewer shows.
     pub viewing: Viewing,
-    /// Who follows simulated runs while they are under way.
+    /// Receives news of simulated runs while they are under way.
     pub feed: Option<Feed>,
-    /// Whether simulated runs tell how they are, as events.
-    pub pulse: bool,
+    /// Whether simulated runs report progress counters, as events.
+    pub counters: bool,
 }
 
-/// Shots come by the thousand, and all threads tell the same watcher: one in so many is told.
-const SHOTS_TOLD: u64 = 64;
+/// One shot in this number is reported: all threads report to the same watcher.
+const SHOTS_REPORTED: u64 = 64;
 
 /// Something that happened while a plan is carried out.
 #[derive(Clone, Copy, Debug)]
 pub enum Event {
-    /// A run was found finished, by a sweep that was interrupted.
+    /// A run was finished before, by a sweep that was interrupted.
     Found,
-    /// A run has shot some sources more.
+    /// A run has shot some more sources.
     Shots {
         /// Index into [`Plan::runs`].
         run: usize,
-        /// How many it has shot so far.
+        /// Sources shot so far.
         shots: u64,
     },
-    /// How a run is; told now and then.
-    Pulse {
+    /// Progress counters of a run, at intervals of host time.
+    Counters {
         /// Index into [`Plan::runs`].
         run: usize,
-        /// How.
-        pulse: Pulse,
+        /// The counters.
+        counters: Counters,
     },
     /// A run has ended.
     Finished {
@@ -80,35 +80,35 @@ pub enum Event {
     },
 }
 
-/// Told of every event, from the threads that work.
+/// Receives every event, from the threads that work.
 pub type Watch = Arc<dyn Fn(Event) + Send + Sync>;
 
 /// How one run ended: its figures, or why it failed.
 pub type Ending = Result<Figures, String>;
 
-/// The same with the radiosities found, by environment.
+/// The same with the radiosities, by environment.
 type Ended = Result<(Figures, Vec<Vec<Rgb>>), String>;
 
 /// How all runs ended.
 pub struct Endings {
-    /// In the plan's order; none for a run that was not come to.
+    /// In the plan's order; none for a run that was not started.
     pub runs: Vec<Option<Ending>>,
-    /// What the host took for each run, also where it was found finished.
+    /// Host times of each run, also where it was finished before.
     pub host: Vec<Option<HostTimes>>,
-    /// What became of the shots that runs asked for.
+    /// Shots that runs asked for: found or cast.
     pub shots: ShotCounts,
-    /// Host memory that kept shots took at most, bytes.
+    /// Most host memory used for kept shots, bytes.
     pub shot_bytes: usize,
-    /// What was recorded for the report.
-    pub films: Vec<Option<LightRecording>>,
-    /// Dense solutions that runs were held against.
+    /// Recordings for the report.
+    pub recordings: Vec<Option<LightRecording>>,
+    /// Dense solutions that runs were compared with.
     pub dense: DenseAnswers,
 }
 
 /// Carries out all runs of a plan that are not saved in `out`, and saves each there.
 ///
 /// # Errors
-/// If a finished run cannot be saved. A run that fails is no error here: it ends so.
+/// If a finished run cannot be saved. A run that fails is no error here: its ending says so.
 pub fn carry_out(plan: &Plan, out: &Path, options: &Options, watch: Watch) -> io::Result<Endings> {
     let saved = Saved::in_folder(out);
     if options.fresh || options.traces.is_some() {
@@ -119,64 +119,64 @@ pub fn carry_out(plan: &Plan, out: &Path, options: &Options, watch: Watch) -> io
     let (found, host): (Vec<Option<Ending>>, Vec<Option<HostTimes>>) =
         found.map(|run| run.map(|(figures, host)| (Ok(figures), host)).unzip()).unzip();
     found.iter().flatten().for_each(|_| watch(Event::Found));
-    let filmed = match options.on {
+    let recorded = match options.on {
         On::Simulation => options.viewing.chosen(plan),
         On::Threads => vec![false; plan.runs.len()],
     };
 
-    // Films are not saved: runs found are made again to be filmed, for that alone.
-    let waiting = (0..plan.runs.len()).filter(|&run| found[run].is_none() || filmed[run]);
+    // Recordings are not saved: finished runs are simulated again to be recorded.
+    let waiting = (0..plan.runs.len()).filter(|&run| found[run].is_none() || recorded[run]);
     let queue = Mutex::new(Queue::new(plan, waiting));
     let threads = options.threads.max(1);
-    let desk = Desk {
+    let shared = Shared {
         plan,
         options,
         watch,
         saved,
         keys,
-        filmed,
+        recorded,
         memory: Arc::new(Memory::new(options.memory)),
         helpers: Arc::new(Helpers::of(threads)),
         queue,
         runs: Mutex::new(found),
         host: Mutex::new(host),
-        films: Mutex::new(plan.runs.iter().map(|_| None).collect()),
+        recordings: Mutex::new(plan.runs.iter().map(|_| None).collect()),
         dense: DenseAnswers::default(),
         trouble: Mutex::new(None),
     };
     std::thread::scope(|scope| {
         for _ in 0..threads {
-            scope.spawn(|| desk.helpers.work_then_help(|| desk.work()));
+            scope.spawn(|| shared.helpers.work_then_help(|| shared.work()));
         }
     });
-    let trouble = held(&desk.trouble).take();
+    let trouble = held(&shared.trouble).take();
     match trouble {
         Some(error) => Err(error),
-        None => Ok(desk.endings()),
+        None => Ok(shared.endings()),
     }
 }
 
-/// What the workers share.
-struct Desk<'a> {
+/// State that the workers share.
+struct Shared<'a> {
     plan: &'a Plan,
     options: &'a Options,
     watch: Watch,
     saved: Saved,
-    /// Under which each run is saved.
+    /// Key under which each run is saved.
     keys: Vec<String>,
-    /// Which runs are filmed.
-    filmed: Vec<bool>,
+    /// Which runs are recorded for the report.
+    recorded: Vec<bool>,
     memory: Arc<Memory>,
     helpers: Arc<Helpers>,
     queue: Mutex<Queue>,
     runs: Mutex<Vec<Option<Ending>>>,
     host: Mutex<Vec<Option<HostTimes>>>,
-    films: Mutex<Vec<Option<LightRecording>>>,
+    recordings: Mutex<Vec<Option<LightRecording>>>,
     dense: DenseAnswers,
     trouble: Mutex<Option<io::Error>>,
 }
 
-impl Desk<'_> {
+impl Shared<'_> {
     /// Works on runs until none waits, or one could not be saved.
     fn work(&self) {
         while held(&self.trouble).is_none() {
@@ -230,27 +230,27 @@ impl Desk<'_> {
         let (shots, shot_bytes) = (held(&self.queue).counts(), self.memory.most());
         let runs = self.runs.into_inner().unwrap_or_else(PoisonError::into_inner);
         let host = self.host.into_inner().unwrap_or_else(PoisonError::into_inner);
-        let films = self.films.into_inner().unwrap_or_else(PoisonError::into_inner);
-        Endings { runs, host, shots, shot_bytes, films, dense: self.dense }
+        let recordings = self.recordings.into_inner().unwrap_or_else(PoisonError::into_inner);
+        Endings { runs, host, shots, shot_bytes, recordings, dense: self.dense }
     }
 
-    /// How far a run is from the answer, if there is one; no part of what the run took of the host.
+    /// The error of a run against its answer, if there is one. Its host time does not count as the run's.
     fn errors(&self, task: &Task, radiosity: &Radiosity) -> Result<Option<ErrorFigures>, String> {
         let run = &self.plan.runs[task.run];
         let Some(answer) = self.plan.answer(run, &self.dense) else { return Ok(None) };
         let problem = &self.plan.problems[run.problem].problem;
-        let yardstick = Yardstick::new(&answer, problem);
-        let mut errors = yardstick.errors(radiosity);
+        let measure = ErrorMeasure::new(&answer, problem);
+        let mut errors = measure.errors(radiosity);
         if run.point.error_causes {
             let machine = &self.plan.machines[run.machine].machine;
             let run = Explained { point: &run.point, problem, machine, kept: &task.kept };
             let dense = self.dense.of(problem);
-            errors.causes = Some(run.causes(radiosity, &yardstick, &dense)?);
+            errors.causes = Some(run.causes(radiosity, &measure, &dense)?);
         }
         Ok(Some(errors))
     }
 
-    /// Carries a run out, and writes its trace if there is to be one.
+    /// Carries out a run, and writes its trace if one is asked for.
     fn run(&self, task: &Task) -> (Ended, io::Result<()>) {
         let run = &self.plan.runs[task.run];
         let Prepared { problem, scene_bytes, .. } = &self.plan.problems[run.problem];
@@ -259,7 +259,7 @@ impl Desk<'_> {
         let shots = AtomicU64::new(0);
         let on_shot = Arc::new(move || {
             let shots = shots.fetch_add(1, Ordering::Relaxed) + 1;
-            if shots.is_multiple_of(SHOTS_TOLD) {
+            if shots.is_multiple_of(SHOTS_REPORTED) {
                 watch(Event::Shots { run: index, shots });
             }
         });
@@ -268,18 +268,19 @@ impl Desk<'_> {
         let kept = if point.reuse_shots { &task.kept } else { &nothing_kept };
         let run = simulator::run(problem, point, kept, on_shot);
         let on = self.options.on;
-        let (traces, filmed) = (&self.options.traces, self.filmed[task.run]);
+        let (traces, recorded) = (&self.options.traces, self.recorded[task.run]);
         let processors = run.processors;
-        let film = filmed.then(|| Rc::new(RefCell::new(LightRecording::new(problem, processors))));
+        let light =
+            recorded.then(|| Rc::new(RefCell::new(LightRecording::new(problem, processors))));
         // A trace needs no light.
-        let recording = (traces.is_some() && !filmed)
+        let recording = (traces.is_some() && !recorded)
             .then(|| Rc::new(RefCell::new(Recording::new(problem, processors))));
         let broadcast = self.broadcast(task.run, &run);
         let observers = [
-            film.clone().map(|film| film as SharedObserver),
+            light.clone().map(|light| light as SharedObserver),
             recording.clone().map(|recording| recording as SharedObserver),
             broadcast.clone().map(|broadcast| broadcast as SharedObserver),
-            self.heart(task.run, &run),
+            self.progress(task.run, &run),
         ];
         let ended =
             simulator::carry_out(&run, point, on, machine, *scene_bytes, together(observers));
@@ -287,35 +288,35 @@ impl Desk<'_> {
             broadcast.borrow_mut().flush();
             feed(task.run, News::End);
         }
-        let film = film.and_then(Rc::into_inner).map(RefCell::into_inner);
+        let light = light.and_then(Rc::into_inner).map(RefCell::into_inner);
         let recording = recording.and_then(Rc::into_inner).map(RefCell::into_inner);
-        // Of a run that failed, too: there it is needed most.
+        // Also for a run that failed: it is needed most there.
         let traced =
-            match (traces, film.as_ref().map(LightRecording::recording).or(recording.as_ref())) {
+            match (traces, light.as_ref().map(LightRecording::recording).or(recording.as_ref())) {
                 (Some(traces), Some(recording)) => traces.write(self.plan, task.run, recording),
                 _ => Ok(()),
             };
-        held(&self.films)[task.run] = film.filter(|_| ended.is_ok());
+        held(&self.recordings)[task.run] = light.filter(|_| ended.is_ok());
         (ended, traced)
     }
 
-    /// Tells those who follow runs of this one.
+    /// The observer that feeds live viewers, if there is a feed.
     fn broadcast(&self, index: usize, run: &virtwall::Run) -> Option<Rc<RefCell<Broadcast>>> {
         let feed = self.options.feed.clone().filter(|_| self.options.on == On::Simulation)?;
         let broadcast = Broadcast::new(&run.problem, run.processors, Follower::new(index, feed));
         Some(Rc::new(RefCell::new(broadcast)))
     }
 
-    /// Tells how a run is, where that is asked for and costs no other simulation.
-    fn heart(&self, index: usize, run: &virtwall::Run) -> Option<SharedObserver> {
+    /// The observer that reports progress counters, if asked for and if it needs no extra simulation.
+    fn progress(&self, index: usize, run: &virtwall::Run) -> Option<SharedObserver> {
         let of = &self.plan.runs[index];
         let machine = &self.plan.machines[of.machine].machine;
-        let watched = self.options.feed.is_some() || self.filmed[index];
+        let watched = self.options.feed.is_some() || self.recorded[index];
         let costs_nothing = watched || !network::is_open(machine);
-        (self.options.pulse && costs_nothing).then(|| {
+        (self.options.counters && costs_nothing).then(|| {
             let watch = Arc::clone(&self.watch);
-            let tell = move |pulse| watch(Event::Pulse { run: index, pulse });
-            Rc::new(RefCell::new(Heart::new(run, tell))) as SharedObserver
+            let report = move |counters| watch(Event::Counters { run: index, counters });
+            Rc::new(RefCell::new(ProgressObserver::new(run, report))) as SharedObserver
         })
     }
 }

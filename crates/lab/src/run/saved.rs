@@ -1,5 +1,5 @@
-//! Finished runs, each kept in a file of its own until its sweep is complete: a sweep that is
-//! killed goes on where it was.
+//! Finished runs, each saved in its own file until the sweep is complete, so that a sweep that was killed
+//! continues where it stopped.
 
 use std::fs;
 use std::io;
@@ -27,8 +27,8 @@ impl Saved {
         Saved { folder: out.join(".partial") }
     }
 
-    /// What decides a run's figures: the whole point of the experiment but for what only presents
-    /// its results, the files it reads, and this program.
+    /// A digest of all that decides a run's figures: the point of the experiment without what only presents
+    /// results, the files it reads, and this program.
     pub fn key(&self, plan: &Plan, run: &Run, on: On) -> String {
         let prepared = &plan.problems[run.problem];
         let digests = |files: &[FileDigest]| -> Vec<String> {
@@ -53,14 +53,14 @@ impl Saved {
         sha256(conditions.to_string().as_bytes())
     }
 
-    /// The figures of the run of this key, and what the host took for it, if it was finished. A file
-    /// that is damaged counts as none.
+    /// The figures and host times of the run with this key, if it was finished. A damaged file counts as
+    /// missing.
     pub fn load(&self, key: &str) -> Option<(Figures, HostTimes)> {
         let text = fs::read_to_string(self.path(key)).ok()?;
         serde_json::from_str(&text).ok()
     }
 
-    /// Keeps the figures of a finished run, and what the host took for it.
+    /// Saves the figures and host times of a finished run.
     ///
     /// # Errors
     /// If the folder or the file cannot be written.
@@ -69,7 +69,7 @@ impl Saved {
         file::write(&self.path(key), &serde_json::to_vec(&(figures, host))?)
     }
 
-    /// Forgets all finished runs.
+    /// Deletes all finished runs.
     ///
     /// # Errors
     /// If the folder is there and cannot be removed.

@@ -1,9 +1,9 @@
 //! Kept shots in files, where later runs of this program find them.
 //!
-//! Every process appends to files of its own, so that none harms another's; it reads those that were
-//! in the folder when a problem was begun. A record is a shot's key and code under a checksum: one
-//! that is damaged, or was not written to its end, counts as missing. What decides a problem's shots
-//! names its files: this program, the scene's files, how it is meshed and cut, the hemisphere.
+//! Every process appends only to its own files; it reads those that were in the folder when it began a
+//! problem. A record
+//! is a shot's key and code with a checksum; a damaged or incomplete one counts as missing. The name of a file
+//! is a digest of all that decides the shots: this program, the scene's files, mesh, cut and hemisphere.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions};
@@ -55,7 +55,7 @@ impl ShotFiles {
         held(&self.trouble).clone()
     }
 
-    /// The shots of a problem, which are those of this program: another build may cast them otherwise.
+    /// The shots of a problem, cast by this build of the program: another build may cast them differently.
     pub fn of(&self, prepared: &Prepared) -> Box<dyn Archive> {
         let scene: Vec<&str> = prepared.digests.iter().map(|file| file.sha256.as_str()).collect();
         let settings = &prepared.settings;
@@ -63,7 +63,7 @@ impl ShotFiles {
         let problem = sha256(decides.to_string().as_bytes());
         let mut shots = Shots::default();
         for path in self.paths(&problem) {
-            // What cannot be read is not there.
+            // A file that cannot be read counts as missing.
             let _ = shots.read(&path, &problem);
         }
         let (folder, trouble) = (self.folder.clone(), Arc::clone(&self.trouble));
@@ -109,7 +109,7 @@ struct Place {
 }
 
 impl Shots {
-    /// Takes note of what a file holds.
+    /// Indexes the records of a file.
     fn read(&mut self, path: &Path, problem: &str) -> io::Result<()> {
         let mut from = BufReader::new(File::open(path)?);
         let end = from.get_ref().metadata()?.len();

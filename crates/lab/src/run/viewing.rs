@@ -13,7 +13,7 @@ pub enum Viewing {
     Automatic,
     /// All.
     All,
-    /// None: the report has tables and plots alone.
+    /// None: the report has only tables and plots.
     None,
     /// These, by row of runs.csv, from 1.
     Rows(Vec<usize>),

@@ -7,7 +7,7 @@ use crate::files::file;
 use crate::files::find::named_from;
 use crate::table::runs_csv::Table;
 
-/// Errors for which the cheapest setting is told.
+/// Errors for which the cheapest setting is shown.
 const TARGETS: [f64; 4] = [0.1, 0.03, 0.01, 0.003];
 
 /// The cheapest run of a scene that reaches an error.
@@ -101,7 +101,7 @@ impl Cheapest {
     }
 }
 
-/// The table for a terminal; empty where there is nothing to tell.
+/// The table for a terminal; empty if it has no rows.
 pub fn text(table: &Table, sweeps: &[String]) -> String {
     let cheapest = cheapest(table, sweeps);
     if cheapest.is_empty() {
@@ -133,12 +133,12 @@ mod tests {
         let columns = own(["scene", "pixels", "time_s", "error_l2"]);
         let table = Table { columns, rows: rows.map(own).to_vec() };
         let sweeps = ["scene", "pixels"].map(str::to_owned);
-        let told = cheapest(&table, &sweeps);
+        let found = cheapest(&table, &sweeps);
         let times: Vec<_> =
-            told.iter().map(|c| c.found.as_ref().map(|found| found.time_s)).collect();
+            found.iter().map(|c| c.found.as_ref().map(|found| found.time_s)).collect();
         let expected = [Some(2.0), Some(2.0), Some(4.0), Some(4.0), Some(1.0), None, None, None];
         assert_eq!(times, expected);
-        assert_eq!(told[1].cells(), ["a", "3 %", "2.00", "2 %", "pixels 256"]);
+        assert_eq!(found[1].cells(), ["a", "3 %", "2.00", "2 %", "pixels 256"]);
         assert!(cheapest(&table, &sweeps[..1]).is_empty());
     }
 }

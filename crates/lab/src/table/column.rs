@@ -58,7 +58,7 @@ impl Row<'_> {
         (column.cell)(self).unwrap_or_default()
     }
 
-    /// What the run tells of its network.
+    /// Its figures of the network.
     pub fn network(&self) -> Option<&NetworkFigures> {
         self.figures?.network.as_ref()
     }

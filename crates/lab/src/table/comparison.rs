@@ -1,4 +1,4 @@
-//! Published figures to stand beside ours.
+//! Published figures, to compare results with.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -71,7 +71,7 @@ fn parse(text: &[u8]) -> Result<Comparison, Wrong> {
     Ok(Comparison(published))
 }
 
-/// Where the columns stand.
+/// Positions of the columns.
 fn find_columns(header: &csv::StringRecord) -> Result<[usize; 4], Wrong> {
     let mut found = [0; 4];
     for (found, name) in found.iter_mut().zip(COLUMNS) {

@@ -22,7 +22,7 @@ impl<'a> Measure<'a> {
     }
 
     /// The unit of all cells of a single column that hold something, empty where there is none;
-    /// `None` if they have not the same, or one is no number. Of a product no unit is told.
+    /// `None` if they differ, or one is no number. A product has no unit.
     pub fn unit<'t>(&self, table: &'t Table) -> Option<&'t str> {
         let unit_of = |column: &str| {
             let filled = table.rows.iter().filter(|row| !table.cell(row, column).is_empty());
@@ -89,12 +89,12 @@ mod tests {
 
     #[test]
     fn names_are_told_in_words() {
-        let told = |name| Measure::of(name).with_unit("");
-        assert_eq!(told("time_s"), "Time (s)");
-        assert_eq!(told("speed_up"), "Speed-up");
-        assert_eq!(told("stop.patch_threshold"), "Patch threshold");
-        assert_eq!(told("host.cpu_s"), "Host CPU (s)");
-        assert_eq!(told("operations.ray"), "Rays counted");
-        assert_eq!(told("patches*local_shots"), "Patches × local shots");
+        let label = |name| Measure::of(name).with_unit("");
+        assert_eq!(label("time_s"), "Time (s)");
+        assert_eq!(label("speed_up"), "Speed-up");
+        assert_eq!(label("stop.patch_threshold"), "Patch threshold");
+        assert_eq!(label("host.cpu_s"), "Host CPU (s)");
+        assert_eq!(label("operations.ray"), "Rays counted");
+        assert_eq!(label("patches*local_shots"), "Patches × local shots");
     }
 }

@@ -49,7 +49,7 @@ impl Project {
     }
 }
 
-/// Simulated runs on so many threads, nothing else asked for.
+/// Simulated runs on `threads` threads, with default options.
 pub fn options(threads: usize) -> Options {
     Options {
         threads,
@@ -60,7 +60,7 @@ pub fn options(threads: usize) -> Options {
         traces: None,
         viewing: Viewing::None,
         feed: None,
-        pulse: false,
+        counters: false,
     }
 }
 

@@ -1,4 +1,4 @@
-//! What the report's viewer is told of the runs that were filmed.
+//! Recorded runs for the report's viewer.
 
 use std::sync::Arc;
 
@@ -10,16 +10,16 @@ use crate::engine::simulator;
 use crate::planning::plan::{Plan, all_else};
 use crate::run::runner::Endings;
 
-/// Bytes that recordings may take in a report, about.
+/// Approximate limit of the bytes of recordings in a report.
 const LIMIT: usize = 19_000_000;
 
-/// The recordings of a plan's runs, packed by so many threads; none if there are none.
+/// The recordings of a plan's runs, packed by `threads` threads; none if no run was recorded.
 pub fn recorded(plan: &Plan, endings: &Endings, threads: usize) -> Option<ReportParts> {
     let mut groups: Vec<(usize, Vec<usize>)> = Vec::new();
     let mut answers: Vec<Option<Arc<Vec<Rgb>>>> = vec![None; plan.problems.len()];
-    let mut reels = Vec::new();
-    for (run, film) in plan.runs.iter().zip(&endings.films) {
-        let Some(film) = film else { continue };
+    let mut recordings = Vec::new();
+    for (run, recording) in plan.runs.iter().zip(&endings.recordings) {
+        let Some(recording) = recording else { continue };
         let key = (run.problem, all_else(plan, run, "processors"));
         let group = groups.iter().position(|known| *known == key).unwrap_or(groups.len());
         if group == groups.len() {
@@ -31,7 +31,7 @@ pub fn recorded(plan: &Plan, endings: &Endings, threads: usize) -> Option<Report
             answers[run.problem] = answer.map(|answer| Arc::new(laid_on(&answer, problem)));
         }
         let published = plan.comparison.of(&run.point.scene, run.point.processors);
-        reels.push(RecordedRun {
+        recordings.push(RecordedRun {
             label: plan.label(run),
             scene: run.point.scene.clone(),
             group,
@@ -40,8 +40,8 @@ pub fn recorded(plan: &Plan, endings: &Endings, threads: usize) -> Option<Report
             owners: simulator::owners(&run.point, problem),
             answer: answers[run.problem].clone(),
             published: published.speed_up.parse().ok(),
-            recording: film,
+            recording,
         });
     }
-    (!reels.is_empty()).then(|| ReportParts::of(&reels, LIMIT, threads))
+    (!recordings.is_empty()).then(|| ReportParts::of(&recordings, LIMIT, threads))
 }

@@ -1,4 +1,4 @@
-//! How a run is while it is under way, in a few numbers.
+//! Progress counters of a run that is under way.
 
 use desim::Time;
 use multicomputer::Rank;
@@ -7,65 +7,65 @@ use virtwall::{EnergyLedger, MessageKind, Observer, Run, SentMessage, Source};
 
 use crate::host::host_clock::Interval;
 
-/// Host seconds between pulses.
-const BETWEEN_PULSES: f64 = 0.1;
+/// Host seconds between reports.
+const BETWEEN_REPORTS: f64 = 0.1;
 
-/// How a run is.
+/// Progress counters of a run.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Pulse {
+pub struct Counters {
     /// Virtual time, seconds.
     pub time_s: f64,
     /// Sources shot, local and received.
     pub shots: u64,
     /// Sources sent from processor to processor.
     pub messages: u64,
-    /// Nodes that shoot.
+    /// Nodes that are shooting.
     pub busy: usize,
     /// All compute nodes.
     pub nodes: usize,
-    /// Of the emitted energy what is still to be shot, on patches and under way.
+    /// Share of the emitted energy that is still to be shot, on patches or in transit.
     pub unshot: f64,
 }
 
-/// Counts along with a run, and tells now and then.
-pub struct Heart<T> {
-    pulse: Pulse,
+/// Observes a run and reports its counters at intervals of host time.
+pub struct ProgressObserver<T> {
+    counters: Counters,
     energy: EnergyLedger,
     /// By rank, whether it shoots.
     shoots: Vec<bool>,
     interval: Interval,
-    tell: T,
+    report: T,
 }
 
-impl<T: FnMut(Pulse)> Heart<T> {
+impl<T: FnMut(Counters)> ProgressObserver<T> {
     /// Of a run.
-    pub fn new(run: &Run, tell: T) -> Heart<T> {
-        Heart {
-            pulse: Pulse { nodes: run.processors, ..Pulse::default() },
+    pub fn new(run: &Run, report: T) -> ProgressObserver<T> {
+        ProgressObserver {
+            counters: Counters { nodes: run.processors, ..Counters::default() },
             energy: EnergyLedger::at_first(run.problem.emitted_power()),
             shoots: vec![false; run.processors],
-            interval: Interval::new(BETWEEN_PULSES),
-            tell,
+            interval: Interval::new(BETWEEN_REPORTS),
+            report,
         }
     }
 
-    fn pulse(&self, now: Time) -> Pulse {
+    fn counters(&self, now: Time) -> Counters {
         let EnergyLedger { emitted, unshot, in_transit, .. } = self.energy;
         let emitted = emitted.element_sum();
         let left = (unshot + in_transit).element_sum();
-        Pulse {
+        Counters {
             time_s: now.as_seconds_f64(),
             busy: self.shoots.iter().filter(|&&shoots| shoots).count(),
             unshot: if emitted > 0.0 { left / emitted } else { 0.0 },
-            ..self.pulse
+            ..self.counters
         }
     }
 }
 
-impl<T: FnMut(Pulse)> Observer for Heart<T> {
+impl<T: FnMut(Counters)> Observer for ProgressObserver<T> {
     fn sent(&mut self, _: Time, message: &SentMessage) {
         let is_source = matches!(message.kind, MessageKind::Source | MessageKind::WallPatch);
-        self.pulse.messages += u64::from(is_source);
+        self.counters.messages += u64::from(is_source);
     }
 
     fn selected(&mut self, _: Time, rank: Rank, source: &Source) {
@@ -75,10 +75,10 @@ impl<T: FnMut(Pulse)> Observer for Heart<T> {
 
     fn shot(&mut self, now: Time, rank: Rank, source: &Source, shot: &Shot, reflected: Rgb) {
         self.energy.shot(source, shot, reflected);
-        self.pulse.shots += 1;
+        self.counters.shots += 1;
         if self.interval.is_due() {
-            let pulse = self.pulse(now);
-            (self.tell)(pulse);
+            let counters = self.counters(now);
+            (self.report)(counters);
         }
         self.shoots[rank] = false;
     }
