@@ -239,7 +239,7 @@ impl Planner<'_> {
         }
         let changes = choice.changes();
         let field = if changes.is_some() { "machine.extends" } else { "machine" };
-        let found = find(self.folder, Shelf::Machines, choice.name())
+        let found = find(self.folder, FileKind::Machines, choice.name())
             .map_err(|message| self.fault(point, field, message))?;
         let file = match self.machine_files.get(&found.path) {
             Some(file) => file,
