@@ -124,7 +124,7 @@ pub fn in_words(value: &Value) -> String {
             let mut words: Vec<String> = name.into_iter().collect();
             fields.iter().filter(|(key, _)| *key != "extends").for_each(|(key, field)| {
                 let inner = if field.is_null() { "null".to_owned() } else { in_words(field) };
-                let nested = field.is_object().then_some('.').unwrap_or(' ');
+                let nested = if field.is_object() { '.' } else { ' ' };
                 words.extend(inner.split(", ").map(|inner| format!("{key}{nested}{inner}")));
             });
             words.join(", ")
