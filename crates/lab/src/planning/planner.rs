@@ -20,11 +20,11 @@ use crate::files::file::{PLAIN, is_plain};
 use crate::files::find::{FileKind, Found, find, named_from};
 use crate::host::host_clock::HostClock;
 use crate::host::program::program;
-use crate::open::machine_file::MachineFile;
 use crate::open::problem;
 use crate::open::scene::Scene;
 use crate::open::settings::Settings;
-use crate::planning::plan::{Equipment, Plan, Prepared, Run};
+use crate::planning::machines::Machines;
+use crate::planning::plan::{Plan, Prepared, Run};
 use crate::planning::plots::check_plots;
 use crate::planning::preparing::Preparing;
 use crate::planning::suits::suits;
@@ -67,9 +67,7 @@ impl Plan {
             document: &document,
             preparing,
             scenes: Vec::new(),
-            machines: Vec::new(),
-            machine_of: BTreeMap::new(),
-            machine_files: BTreeMap::new(),
+            machines: Machines::default(),
             references: BTreeMap::new(),
             stored: Vec::new(),
             sweeps: BTreeMap::new(),
@@ -86,11 +84,7 @@ struct Planner<'a> {
     sweep: &'a Sweep,
     preparing: &'a Preparing<'a>,
     scenes: Vec<Found>,
-    machines: Vec<Equipment>,
-    /// Indices into `machines`, by what the experiment says of the machine.
-    machine_of: BTreeMap<String, usize>,
-    /// Machine files, by path.
-    machine_files: BTreeMap<PathBuf, MachineFile>,
+    machines: Machines,
     /// Indices into `stored`, by file and scene.
     references: BTreeMap<(PathBuf, usize), usize>,
     stored: Vec<Stored>,
@@ -137,7 +131,7 @@ impl Planner<'_> {
 
         let mut files: Vec<FileDigest> =
             scenes.iter().flat_map(|(scene, _)| scene.digests.clone()).collect();
-        files.extend(self.machines.iter().flat_map(|machine| machine.digests.clone()));
+        files.extend(self.machines.read.iter().flat_map(|machine| machine.digests.clone()));
         files.extend(compared);
         files.extend(self.sweeps.values().map(|(_, digest)| digest.clone()));
         files.extend(self.stored.iter().map(|stored| stored.digest.clone()));
@@ -151,7 +145,7 @@ impl Planner<'_> {
             axes: self.sweep.axes.clone(),
             runs,
             problems,
-            machines: self.machines,
+            machines: self.machines.read,
             references: self.stored,
             comparison,
             plots,
@@ -178,7 +172,7 @@ impl Planner<'_> {
             self.document.fault(&self.sweep.place_in_file(point, fault.place), fault.message)
         })?;
         let machine = self.machine(point, &typed)?;
-        suits(&typed, &self.machines[machine].machine)
+        suits(&typed, &self.machines.read[machine].machine)
             .map_err(|(field, message)| self.fault(point, field, message))?;
         let scene = self.scene(point, &typed)?;
         self.accuracy(point, &typed)?;
@@ -230,43 +224,12 @@ impl Planner<'_> {
         self.document.fault(&self.sweep.place_in_file(point, Place::of(field)), message)
     }
 
-    /// The machine of this point: its file is read once, and each change of it made once.
+    /// The index of this point's machine.
     fn machine(&mut self, point: &Point, typed: &Experiment) -> Result<usize, Fault> {
-        let choice = &typed.machine;
-        let key = serde_json::to_string(choice).unwrap_or_default();
-        if let Some(&known) = self.machine_of.get(&key) {
-            return Ok(known);
-        }
-        let changes = choice.changes();
-        let field = if changes.is_some() { "machine.extends" } else { "machine" };
-        let found = find(self.folder, FileKind::Machines, choice.name())
-            .map_err(|message| self.fault(point, field, message))?;
-        let file = match self.machine_files.get(&found.path) {
-            Some(file) => file,
-            None => {
-                let file = MachineFile::load(&found)?;
-                self.machine_files.entry(found.path.clone()).or_insert(file)
-            }
-        };
-        let digests = file.digests.clone();
-        let (machine, at) = match changes {
-            None => (Ok(file.machine.clone()), None),
-            Some(changes) => (file.changed(changes), Some(choice)),
-        };
-        let checked = machine.and_then(|machine| {
-            simulator::check_machine(&machine)?;
-            Ok(machine)
-        });
-        let machine = checked.map_err(|fault| match at {
-            None => Fault { file: found.path.display().to_string(), ..fault },
-            Some(choice) => {
-                let place = self.sweep.place_in_file(point, choice.place(&fault.place));
-                self.document.fault(&place, fault.message)
-            }
-        })?;
-        self.machines.push(Equipment { machine, digests });
-        self.machine_of.insert(key, self.machines.len() - 1);
-        Ok(self.machines.len() - 1)
+        let Planner { document, sweep, folder, .. } = *self;
+        self.machines.find(folder, &typed.machine, |place, message| {
+            document.fault(&sweep.place_in_file(point, place), message)
+        })
     }
 
     /// The index of this point's scene.
@@ -334,7 +297,7 @@ impl Planner<'_> {
     ) -> Result<(Experiment, Tuned), Fault> {
         let refuse = |(field, message)| self.fault(draft.point, field, message);
         let settings = Settings::of(experiment, scene).map_err(refuse)?;
-        let machine = &self.machines[draft.machine].machine;
+        let machine = &self.machines.read[draft.machine].machine;
         let accuracy = experiment.accuracy.as_ref();
         let target = accuracy.map_or(1.0, |accuracy| accuracy.relative_l2);
         let sweep = accuracy.and_then(|accuracy| self.sweeps.get(accuracy.sweep.as_ref()?));

@@ -121,7 +121,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_cheapest_that_reaches_it_is_told() {
+    fn the_cheapest_setting_below_the_error_is_reported() {
         let own = |cells: [&str; 4]| cells.map(str::to_owned).to_vec();
         let rows = [
             ["a", "64", "1", "0.2"],

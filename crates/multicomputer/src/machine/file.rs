@@ -59,14 +59,14 @@ pub(crate) struct MachineFile {
     /// is left out of it costs nothing.
     #[serde(default)]
     pub(crate) message_layer: MessageLayerFile,
-    /// What gathers updates on the service node and shows them elsewhere; without it they end there and
+    /// The way of updates from the service node to a display; without it they end at the service node and
     /// cost nothing more.
     #[serde(default)]
     pub(crate) display: Option<DisplayFile>,
     /// How nodes read their input and make themselves ready; without it that takes no time.
     #[serde(default)]
     pub(crate) start_up: Option<StartUpFile>,
-    /// What has been measured on the real machine, to stand beside what is simulated.
+    /// Measurements of the real machine, to compare with simulated ones.
     #[serde(default)]
     pub(crate) published: PublishedFile,
 }

@@ -95,7 +95,7 @@ impl Region {
     /// The place of an environment, which must be one of these.
     fn place(&self, number: u32) -> usize {
         let found = self.environments.binary_search_by_key(&number, |one| one.number);
-        found.expect("a source comes to the owner of its environment")
+        found.expect("sources are sent to the owner of their environment")
     }
 
     /// The local patch, or that of one environment, with the greatest value at or above the threshold; of
