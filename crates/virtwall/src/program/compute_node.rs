@@ -86,7 +86,7 @@ impl ComputeNode {
             (Some((value, turn)), local) if self.goes_before(value, local) => {
                 Some(self.take_received(process, turn))
             }
-            (_, local) => self.take_local(local?),
+            (_, local) => local.and_then(|best| self.take_local(best)),
         };
         self.note_brightest(process, &searched);
         source
@@ -115,7 +115,7 @@ impl ComputeNode {
     ) {
         let problem = Arc::clone(&self.shared.problem);
         for onward in problem.onward(source, shot) {
-            self.hand_on(process, &[&onward]);
+            self.hand_on(process, &onward);
             match self.shared.owners[onward.environment as usize] {
                 owner if owner == self.rank => self.enqueue(process, onward),
                 owner => self.send_source(process, owner, Message::Source(Box::new(onward))).await,
@@ -257,13 +257,11 @@ impl ComputeNode {
         }
     }
 
-    /// Sources leave for their environment.
-    pub(super) fn hand_on(&mut self, process: &impl Process, sources: &[&Source]) {
-        for source in sources {
-            process.note(Event::HandedOn(source));
-            self.transit.sent.0 += 1;
-            self.transit.sent.1 += source.power();
-        }
+    /// A source leaves for its environment.
+    pub(super) fn hand_on(&mut self, process: &impl Process, source: &Source) {
+        process.note(Event::HandedOn(source));
+        self.transit.sent.0 += 1;
+        self.transit.sent.1 += source.power();
     }
 
     /// Send sources to another node.

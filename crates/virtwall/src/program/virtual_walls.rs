@@ -27,7 +27,7 @@ impl ComputeNode {
         process.compute(Step::Gather, || ((), work)).await;
         for wall_patch in wall_patches {
             let sources = wall_patch.sources(&self.shared.problem);
-            self.hand_on(process, &sources.iter().collect::<Vec<_>>());
+            sources.iter().for_each(|source| self.hand_on(process, source));
             match self.shared.owners[wall_patch.environment as usize] {
                 owner if owner == process.rank() => {
                     sources.into_iter().for_each(|source| self.enqueue(process, source));
