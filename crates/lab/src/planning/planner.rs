@@ -11,7 +11,6 @@ use crate::accuracy::answer::{self, Stored};
 use crate::accuracy::pilot::{Host, Pilots};
 use crate::accuracy::tuned::Tuned;
 use crate::accuracy::tuner::tune;
-use crate::engine::simulator;
 use crate::experiment::fields::Experiment;
 use crate::experiment::machine::open_up;
 use crate::experiment::sweep::{Point, Sweep};

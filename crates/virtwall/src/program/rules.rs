@@ -24,8 +24,8 @@ pub struct Rules {
     /// A wall patch hands nothing on below this fraction of the same value, where virtual walls stand in
     /// place of masks.
     ///
-    /// Choice C41: what a wall patch has gathered waits there, for more to come, while there is a better
-    /// source in its processor's environments or queue.
+    /// Choice C41: the energy of a wall patch waits there, for more to come, while its processor has a better
+    /// source than the brightest bin.
     pub wall_threshold: f64,
     /// The service node stops all selection when unshot energy and energy in transit together fall
     /// below this fraction of the emitted energy.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use radiosity::{Operation, Shot, Work};
+use radiosity::{Operation, Rgb, Shot, Work};
 
 use super::compute_node::ComputeNode;
 use super::process::{Process, Step};
@@ -11,8 +11,8 @@ use crate::walls::WallPatch;
 use crate::wire::Message;
 
 impl ComputeNode {
-    /// Gather what leaves the environment, then hand on the wall patches that are worth more than the best
-    /// source that is left on this node.
+    /// Gather what leaves the environment, then hand on the wall patches whose brightest bin is worth more than
+    /// the best source that is left on this node.
     pub(super) async fn send_wall_patches(
         &mut self,
         process: &impl Process,
@@ -45,9 +45,11 @@ impl ComputeNode {
         let shared = Arc::clone(&self.shared);
         let received = self.queue.best(None).map(|(value, _)| value);
         let local = self.region.best_patch(None).map(|best| best.value);
-        let least = received.into_iter().chain(local).fold(shared.wall_threshold, f64::max);
-        let selection = shared.rules.selection;
-        let worth = |power, radiosity| selection.value_of(power, radiosity) >= least;
+        let best = received.into_iter().chain(local).fold(0.0, f64::max);
+        let worth = |[sum, brightest]: [Rgb; 2], area: f64| {
+            let value = |power| shared.rules.selection.value_of(power, power / area);
+            value(sum) >= shared.wall_threshold && value(brightest) >= best
+        };
         work.count(Operation::PatchScan, self.walls.patches());
         let taken = self.walls.take(&shared.problem, worth);
         work.count(Operation::WordCopied, taken.iter().map(WallPatch::words).sum());

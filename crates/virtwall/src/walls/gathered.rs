@@ -19,6 +19,33 @@ struct Held {
     /// By bin.
     power: Vec<Rgb>,
     sum: Rgb,
+    /// The power of the brightest bin.
+    brightest: Rgb,
+}
+
+impl Held {
+    fn new(bins: u32) -> Held {
+        Held { power: vec![Rgb::ZERO; bins as usize], sum: Rgb::ZERO, brightest: Rgb::ZERO }
+    }
+
+    fn add(&mut self, bin: u32, power: Rgb) {
+        let held = &mut self.power[bin as usize];
+        *held += power;
+        self.sum += power;
+        self.brightest = brighter(self.brightest, *held);
+    }
+
+    /// Take the power that single precision can hold.
+    fn take(&mut self) -> Vec<[f32; 3]> {
+        let taken = self.power.iter_mut().map(take_single).collect();
+        self.sum = self.power.iter().sum();
+        self.brightest = self.power.iter().copied().fold(Rgb::ZERO, brighter);
+        taken
+    }
+}
+
+fn brighter(one: Rgb, other: Rgb) -> Rgb {
+    if other.element_sum() > one.element_sum() { other } else { one }
 }
 
 impl Gathered {
@@ -32,11 +59,9 @@ impl Gathered {
             let Some(outgoing) = outgoing else { continue };
             let rays = problem.rays_of(emitter, &source.mask);
             walls.gather(&around, side, emitter, rays, &outgoing.mask, |[patch, bin], weight| {
-                let nothing =
-                    || Held { power: vec![Rgb::ZERO; walls.bins() as usize], sum: Rgb::ZERO };
-                let held = self.0.entry((side.index(), patch)).or_insert_with(nothing);
-                held.power[bin as usize] += emitter.power * weight;
-                held.sum += emitter.power * weight;
+                let held = self.0.entry((side.index(), patch));
+                let held = held.or_insert_with(|| Held::new(walls.bins()));
+                held.add(bin, emitter.power * weight);
                 pixels += 1;
             });
         }
@@ -53,22 +78,22 @@ impl Gathered {
         self.0.len() as u64
     }
 
-    /// Take the energy of the wall patches of `environment` that are `worth` handing on, by power, W, and
-    /// radiosity, W/m². It is sent in single precision; the rounding error stays here.
+    /// Take the energy of the wall patches of `environment` that are `worth` handing on, by their power and
+    /// that of their brightest bin, W, and by their area, m². It is sent in single precision; the rounding
+    /// error stays here.
     pub fn take(
         &mut self,
         problem: &Problem,
         environment: u32,
-        worth: impl Fn(Rgb, Rgb) -> bool,
+        worth: impl Fn([Rgb; 2], f64) -> bool,
     ) -> Vec<WallPatch> {
         let Some(walls) = &problem.walls else { return Vec::new() };
         let around = problem.bounds(environment);
         let mut handed = Vec::new();
         for (&(side, patch), held) in &mut self.0 {
             let side = Side::ALL[side];
-            if worth(held.sum, held.sum / walls.area(&around, side)) {
-                let power: Vec<[f32; 3]> = held.power.iter_mut().map(take_single).collect();
-                held.sum = held.power.iter().sum();
+            if worth([held.sum, held.brightest], walls.area(&around, side)) {
+                let power = held.take();
                 let environment = problem.decomposition.neighbour(environment, side);
                 let entered_by = Side { upper: !side.upper, ..side }.index() as u8;
                 handed.push(WallPatch { environment, side: entered_by, patch, power });

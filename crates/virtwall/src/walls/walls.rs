@@ -18,8 +18,13 @@ impl Walls {
         self.0.entry(source.environment).or_default().gather(problem, source, shot)
     }
 
-    /// Take the energy of the wall patches that are `worth` handing on, by power, W, and radiosity, W/m².
-    pub fn take(&mut self, problem: &Problem, worth: impl Fn(Rgb, Rgb) -> bool) -> Vec<WallPatch> {
+    /// Take the energy of the wall patches that are `worth` handing on, by their power and that of their
+    /// brightest bin, W, and by their area, m².
+    pub fn take(
+        &mut self,
+        problem: &Problem,
+        worth: impl Fn([Rgb; 2], f64) -> bool,
+    ) -> Vec<WallPatch> {
         let walls = self.0.iter_mut();
         walls.flat_map(|(&number, gathered)| gathered.take(problem, number, &worth)).collect()
     }
