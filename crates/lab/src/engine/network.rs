@@ -57,29 +57,29 @@ pub fn simulate(
             let chosen =
                 multicomputer::choose(&machine.parameters, machine.topology(), tolerance, over)?;
             if observer.is_some() {
-                // Pilots are not what is observed, and which run is the last one shows only then.
+                // Pilot runs are not observed: only at the end is it known which of them is the final one.
                 simulate_observed(run, machine, machine.network_on(chosen.model)?, observer)?;
             }
             chosen
         }
-        Some(rung) => {
-            let (network, record) = Recorder::new(machine.network_on(rung)?);
+        Some(model) => {
+            let (network, record) = Recorder::new(machine.network_on(model)?);
             let answer = simulate_observed(run, machine, Box::new(network), observer)?;
             let time = answer.time;
-            AutoResult { model: rung, answer, time, record: record.take(), why: String::new() }
+            AutoResult { model, answer, time, record: record.take(), why: String::new() }
         }
     };
     let figures = figures(machine, &chosen);
     Ok((chosen.answer, Some(figures)))
 }
 
-/// The model that a run is simulated on; where that is left open, it is simulated to find out.
+/// The network model of a run. If the machine leaves it open, a simulation chooses it.
 ///
 /// # Errors
 /// Why the run did not end.
 pub fn rung(run: &Run, machine: &Machine, point: &Experiment) -> Result<NetworkModel, RunError> {
     match machine.network_model {
-        Some(rung) => Ok(rung),
+        Some(model) => Ok(model),
         None => {
             let (_, figures) = simulate(run, machine, point, None)?;
             Ok(figures.and_then(|figures| figures.rung.parse().ok()).unwrap_or(NetworkModel::LogGp))

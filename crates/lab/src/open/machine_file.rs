@@ -59,7 +59,7 @@ impl MachineFile {
     /// The machine with an experiment's changes.
     ///
     /// # Errors
-    /// What is wrong, and where in the machine; the file is left open.
+    /// What is wrong, and where in the machine. The caller adds the name of the file.
     pub fn changed(&self, mut changes: Value) -> Result<Machine, Fault> {
         with_source(&mut changes, "the experiment");
         let mut value = self.value.clone();
