@@ -109,7 +109,7 @@ impl Machine {
     /// Reads what a machine file says, with all that it extends.
     ///
     /// # Errors
-    /// The field at fault, what was found and what was expected; the file is left open.
+    /// The field at fault, what was found and what was expected. The caller adds the name of the file.
     pub fn of(file: &Value) -> Result<Machine, Fault> {
         refuse_unknown_keys(&FIELDS, file)?;
         validate(read(file)?)
