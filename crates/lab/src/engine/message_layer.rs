@@ -3,7 +3,7 @@
 use multicomputer::{LayerAccount, Machine, MessageLayer};
 use serde::{Deserialize, Serialize};
 
-/// What the message layer did on all compute nodes, besides overheads.
+/// What the message layer did on all compute nodes, in addition to overheads.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MessageLayerFigures {
     /// Seconds given to making packets.

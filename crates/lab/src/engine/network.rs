@@ -1,4 +1,4 @@
-//! Which model of the network a run is simulated on, and what it tells of the network.
+//! Simulates a run on the network model that its machine asks for; figures of the network.
 
 use multicomputer::{AutoResult, Machine, NetworkModel, Record, Recorder};
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,7 @@ use crate::experiment::fields::Experiment;
 /// How far "auto" may be from the next finer model, unless the experiment says.
 const TOLERANCE: f64 = 0.01;
 
-/// What a run tells of its network, where an experiment asks for a model.
+/// Figures of the network in a run's results, if an experiment chooses a model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NetworkFigures {
     /// The model used.
@@ -34,7 +34,7 @@ pub fn is_open(machine: &Machine) -> bool {
     machine.network_model.is_none()
 }
 
-/// Simulates a run on the machine's model of its network, and tells `observer` of it.
+/// Simulates a run on the machine's model of its network, with an observer.
 ///
 /// # Errors
 /// Why the run did not end.

@@ -1,4 +1,4 @@
-//! A scene with its light, of its own or of a run at any instant, to be drawn.
+//! A scene with light to draw: its own solution, or the light of a run at any instant.
 
 use std::path::Path;
 use std::sync::Arc;

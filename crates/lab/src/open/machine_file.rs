@@ -1,4 +1,4 @@
-//! Machine files, of which one may say only what it changes of another.
+//! Reads machine files. A file may extend another one and state only what differs.
 
 use std::path::Path;
 

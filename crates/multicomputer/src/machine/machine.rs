@@ -1,4 +1,4 @@
-//! A machine, as its file describes it, checked once at the door.
+//! A machine as its file describes it. All its numbers are checked when it is made.
 
 use config::{Bytes, Document, Fault, Place as Field, Quantity, read, refuse_unknown_keys};
 use serde_json::Value;
@@ -19,7 +19,7 @@ use crate::sourced::Sourced;
 
 /// Largest network, in places: beyond it a file can only be a slip.
 const MOST_PLACES: u32 = 65_536;
-/// Longest flit, bytes: as long as a link's bandwidth can be told from a message's.
+/// Longest flit, bytes. With longer ones a link's bandwidth could not be distinguished from a message's.
 const LONGEST_FLIT: f64 = 1e9;
 
 /// Most virtual channels a link: real routers have a handful.

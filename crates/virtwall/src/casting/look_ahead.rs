@@ -1,4 +1,4 @@
-//! The shots of one run, and those that it will ask for.
+//! Gets the shots of one run, and has shots that it will need cast ahead of time.
 
 use std::borrow::Cow;
 use std::sync::Arc;

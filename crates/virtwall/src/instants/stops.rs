@@ -1,4 +1,4 @@
-//! What a run in one local environment would have ended with at higher thresholds.
+//! The results that a run in one local environment would have had at higher thresholds.
 //!
 //! Patches are shot in the order of their values, so that until the best falls below a threshold a run with a
 //! lower one is the same. Among several environments it is not: a part of a patch that was handed on is worth

@@ -1,4 +1,4 @@
-//! The ambient term: what unshot light would have added, had it been spread evenly over all surfaces.
+//! The ambient term: what the unshot light would add if it were spread evenly over all surfaces.
 
 use radiosity::Rgb;
 
