@@ -18,7 +18,7 @@ pub struct MessageLayerFigures {
     pub unposted_messages: u64,
     /// Messages that had to wait for room in buffers.
     pub held_messages: u64,
-    /// The most bytes that were ever taken of one node's buffers.
+    /// Greatest number of bytes in use at a time in one node's buffers.
     pub buffer_bytes_most: u64,
 }
 

@@ -22,14 +22,12 @@ pub struct NetworkFigures {
     pub blocked_s: f64,
 }
 
-/// Whether results tell of the network: an experiment that chooses the model, or leaves it open, wants to
-/// know what was used.
+/// Whether results have figures of the network: if an experiment chooses the model, or leaves it open.
 pub fn tells(machine: &Machine, point: &Experiment) -> bool {
     point.machine.chooses_network_model() || machine.network_model.is_none()
 }
 
-/// Whether runs are simulated to find out which model will do: observing one then takes another
-/// simulation.
+/// Whether the model is chosen by simulating runs. Observing a run then takes one more simulation.
 pub fn is_open(machine: &Machine) -> bool {
     machine.network_model.is_none()
 }

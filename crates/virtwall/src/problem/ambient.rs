@@ -6,7 +6,7 @@ use super::problem::Problem;
 
 impl Problem {
     /// Radiosity in W/m² that `unshot` power (W) would give a white surface: it falls evenly on all
-    /// surfaces, and what they reflect of it does so again and again.
+    /// surfaces, and so does every reflection of it.
     ///
     /// Source: Cohen, Chen, Wallace and Greenberg, "A progressive refinement approach to fast radiosity
     /// image generation", 1988.
