@@ -15,13 +15,13 @@ pub struct Arguments {
     files: Vec<PathBuf>,
 }
 
-/// Validates all files; returns what each is.
+/// Validates all files; returns the kind of each.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let mut output = String::new();
     let mut faults = Vec::new();
     for file in &arguments.files {
         match check(file) {
-            Ok(what) => output += &format!("{}: {what}\n", file.display()),
+            Ok(kind) => output += &format!("{}: {kind}\n", file.display()),
             Err(fault) => faults.push(fault.to_string()),
         }
     }
@@ -31,7 +31,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     Err(Exit { code: 2, output, message: faults.join("\nerror: ") })
 }
 
-/// Validates a file; returns what it is.
+/// Validates a file; returns its kind.
 fn check(file: &Path) -> Result<String, Fault> {
     if stability::is_case(file) { stability::check(file) } else { lab::check(file) }
 }

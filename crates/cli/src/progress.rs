@@ -47,7 +47,7 @@ struct Counts {
 }
 
 impl Progress {
-    /// Of a plan's runs; shows nothing if `quiet`.
+    /// The progress of a plan's runs; shows nothing if `quiet`.
     pub fn new(plan: Arc<Plan>, quiet: bool) -> Progress {
         let steps = plan.runs.len() as u64 * STEPS;
         let target =

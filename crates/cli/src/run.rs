@@ -181,7 +181,7 @@ fn needs_simulation(argument: &str) -> String {
     format!("{argument}: found --on threads; expected the simulation, which has virtual time")
 }
 
-/// The traces that are asked for; makes their folder.
+/// Where and how to write traces, if the arguments ask for them; makes the folder.
 fn traces(arguments: &Arguments) -> Result<Option<Traces>, Exit> {
     let Some(folder) = arguments.trace.clone() else { return Ok(None) };
     if arguments.on == OnArgument::Threads {
@@ -201,7 +201,7 @@ fn open_shot_files(folder: &Path) -> Result<ShotFiles, Exit> {
     })
 }
 
-/// How many shots were found in memory or on disk, as a line.
+/// A line with the numbers of shots found in memory, found on disk, and cast.
 fn shots(endings: &Endings) -> String {
     let (shots, megabytes) = (endings.shots, endings.shot_bytes as f64 / 1e6);
     format!(

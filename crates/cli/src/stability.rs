@@ -1,4 +1,4 @@
-//! `virtwall stability`: runs the cases in which numerical methods like ours can fail, and writes their page.
+//! `virtwall stability`: runs cases in which radiosity by rays can fail, and writes the page of results.
 
 use std::path::{Path, PathBuf};
 

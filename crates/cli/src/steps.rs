@@ -6,7 +6,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 pub struct Steps(ProgressBar);
 
 impl Steps {
-    /// A bar of `count` steps of something.
+    /// A bar of `count` steps; `what` names them, such as "cases".
     pub fn new(what: &'static str, count: usize) -> Steps {
         let bar = ProgressBar::new(count as u64);
         let style = ProgressStyle::with_template(
@@ -17,7 +17,7 @@ impl Steps {
         Steps(bar)
     }
 
-    /// Wraps work on numbered items so that each item is a step.
+    /// Wraps work on numbered items so that each finished item counts as a step.
     pub fn counting<T>(&self, work: impl Fn(usize) -> T) -> impl Fn(usize) -> T {
         move |number| {
             let result = work(number);
@@ -26,7 +26,7 @@ impl Steps {
         }
     }
 
-    /// One more step is done.
+    /// Counts one step.
     pub fn one(&self) {
         self.0.inc(1);
     }
@@ -36,7 +36,7 @@ impl Steps {
         self.0.set_position(steps);
     }
 
-    /// Counts steps that were done in an earlier run.
+    /// Counts steps that were done in an earlier run. The estimate of the time left ignores them.
     pub fn skip(&self, steps: u32) {
         self.0.inc(u64::from(steps));
         self.0.reset_eta();

@@ -41,10 +41,10 @@ const RULES: &[(&str, &str)] = &[
 /// the list is empty, the diagram of crates already excludes it.
 const KNOWS_NOTHING_OF: &[(&str, &str)] = &[
     ("bytes", ""),
-    // `stability` has simple kernels of its own to compare with.
-    ("but in its twins", ""),
     ("command line", "clap"),
     ("everything else", ""),
+    // `stability` has simple kernels of its own to compare with.
+    ("except in its naive methods", ""),
     ("experiment files", "lab"),
     ("experiments", "lab"),
     ("files", "std::fs"),

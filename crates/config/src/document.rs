@@ -1,4 +1,4 @@
-//! A JSON file as the user wrote it, with the arguments that change it: it says where a fault is.
+//! A JSON file as the user wrote it, with the arguments that change it. It finds the line of a fault.
 
 use std::fmt::Display;
 use std::fs;

@@ -14,7 +14,7 @@ use crate::place::{Place, Step};
 /// Reads JSON and refuses an object that names a key twice.
 ///
 /// # Errors
-/// What is wrong, with line, column and place; the file is left open.
+/// What is wrong, with line, column and place. The caller adds the name of the file.
 pub fn parse(text: &str) -> Result<Value, Fault> {
     let fault = |place, error: &serde_json::Error| {
         let message = error.to_string();

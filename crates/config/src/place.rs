@@ -1,4 +1,4 @@
-//! Where something stands in a JSON document, for messages.
+//! The path to a value in a JSON document, for messages.
 
 use std::fmt;
 

@@ -27,7 +27,7 @@ pub trait Measure {
     }
 }
 
-/// Measures that allow all that their dimension does.
+/// Measures that allow every value of their dimension.
 macro_rules! measures {
     ($($name:ident)*) => { $(
         #[doc = concat!("[`Dimension::", stringify!($name), "`], any value.")]

@@ -1,4 +1,4 @@
-//! JSON values as Rust types: what serde refuses, with its place, in plain words.
+//! Reads JSON values as Rust types. Errors name the place and say in plain words what was expected.
 
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -10,19 +10,19 @@ use crate::schema;
 /// Reads a value as a `T`.
 ///
 /// # Errors
-/// If the value is not a `T`: its place, and what was expected there; the file is left open.
+/// If the value is not a `T`: its place, and what was expected there. The caller adds the name of the file.
 pub fn read<T: DeserializeOwned>(value: &Value) -> Result<T, Fault> {
     serde_path_to_error::deserialize(value).map_err(|error| {
         Fault::at(Place::from(error.path()), in_plain_words(&error.inner().to_string()))
     })
 }
 
-/// Refuses the first key that a type does not have, with those that it has; `schema` is the type's.
+/// Refuses keys that a type does not have; `schema` is the schema of the type.
 ///
 /// # Errors
-/// If there is such a key; the file is left open.
+/// The first such key, and the keys that the type has. The caller adds the name of the file.
 pub fn refuse_unknown_keys(schema: &Value, value: &Value) -> Result<(), Fault> {
-    // serde would take a list for the fields of a struct, one after the other.
+    // serde accepts a list in place of a struct and reads its items as the fields in order.
     if value.is_array() && schema.get("type").is_some_and(|kind| kind == "object") {
         return Err(Fault::at(Place::default(), "found a list; expected an object"));
     }
@@ -48,7 +48,7 @@ fn unknown_key(schema: &Value, value: &Value, place: &Place) -> Option<Fault> {
     }
 }
 
-/// serde's message without Rust's names of types.
+/// serde's message, with plain words in place of the names of Rust types.
 fn in_plain_words(message: &str) -> String {
     let Some((head, expected)) = message.rsplit_once("expected ") else {
         return message.to_owned();

@@ -1,19 +1,19 @@
-//! JSON Schemas of types, and the ways down into them.
+//! JSON Schemas of types, and look-up of fields and items in them.
 
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema};
 use serde_json::{Map, Value};
 
-/// The schema of a type, complete in itself.
+/// The schema of a type, without references to other schemas.
 pub fn of<T: JsonSchema>() -> Value {
     let settings = SchemaSettings::draft2020_12().with(|s| s.inline_subschemas = true);
     Schema::to_value(settings.into_generator().into_root_schema_for::<T>())
 }
 
-/// The schema of a field of an object; none where the object's schema does not say.
+/// The schema of a field of an object; `None` if the object's schema does not restrict its fields.
 ///
 /// # Errors
-/// The fields that there are, if the schema lists them and this one is not among them.
+/// The names of all fields, if the schema lists them and `key` is not among them.
 pub fn field<'a>(schema: &'a Value, key: &str) -> Result<Option<&'a Value>, Vec<String>> {
     let listed = fields(schema);
     let of_any = || alternative(schema, "additionalProperties").filter(|any| any.is_object());
@@ -34,7 +34,7 @@ pub fn items(schema: &Value) -> Option<&Value> {
     alternative(schema, "items")
 }
 
-/// What the schema says under a keyword, or else its first alternative that says something there.
+/// The value of a keyword: the schema's own, or else that of the first alternative that has it.
 fn alternative<'a>(schema: &'a Value, keyword: &str) -> Option<&'a Value> {
     schema.get(keyword).or_else(|| {
         let alternatives = schema.get("anyOf").and_then(Value::as_array)?;

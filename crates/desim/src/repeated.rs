@@ -4,9 +4,10 @@ use std::cell::Cell;
 
 use crate::time::Time;
 
+/// A callback that can be scheduled again and again.
 pub(crate) struct Repeated {
     pub(crate) action: Box<dyn Fn()>,
-    /// When it will be called. An event for another time is stale.
+    /// Time of its next call. An event for any other time is obsolete.
     pub(crate) due: Cell<Option<Time>>,
 }
 

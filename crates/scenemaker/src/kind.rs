@@ -1,4 +1,4 @@
-//! The scenes by name.
+//! The kinds of scene that can be made, by name.
 
 use std::{fmt, str::FromStr};
 

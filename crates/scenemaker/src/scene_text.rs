@@ -3,7 +3,7 @@
 /// The text of the two files of a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneText {
-    /// Name of the files.
+    /// Name of both files, without extension.
     pub name: String,
     /// The OBJ file. It refers to `<name>.mtl`.
     pub obj: String,

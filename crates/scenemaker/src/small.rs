@@ -1,5 +1,5 @@
-//! Small scenes to compare methods on, for which the dense system of all patches can be solved: an
-//! empty room, a corridor with a corner, two rooms with a hole between them, the Cornell box.
+//! Small scenes for comparing methods: an empty room, a corridor with a corner, two rooms with a hole
+//! between them, the Cornell box. All have few enough patches for a dense solution.
 
 use crate::obj::Obj;
 use crate::palette::{BOX_GREEN, BOX_LIGHT, BOX_RED, BOX_WHITE, CEILING, LIGHT, STONE, WALL};
@@ -82,7 +82,7 @@ const DEPTH: i32 = 5592;
 const HEIGHT: i32 = 5488;
 
 /// The Cornell box, from the published coordinates of Cornell's Program of Computer Graphics
-/// ("Cornell Box Data"), enlarged ten times to about 5.5 m. Its front is open, as there.
+/// ("Cornell Box Data"), enlarged ten times to about 5.5 m. Its front is open, as in the original.
 pub fn cornell() -> Obj {
     let mut obj = Obj::default();
     obj.object("floor");

@@ -5,7 +5,7 @@
 //! - `runs`: the runs of a case
 //! - `checks`: what is measured on the runs: rays, direct light, light
 //! - `naive`: naive methods, slow and used nowhere else
-//! - `finding`: a measured quantity beside what is right
+//! - `finding`: a measured quantity with its bound
 //! - `suite`: finds and runs cases
 //! - `page`: the results as Markdown, CSV and SVG
 

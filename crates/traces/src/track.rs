@@ -13,7 +13,7 @@ pub(crate) struct NodeMessages {
 }
 
 impl NodeMessages {
-    /// Of every node, by rank.
+    /// The messages of every node, by rank.
     pub(crate) fn of(recording: &Recording) -> Vec<NodeMessages> {
         let mut nodes = vec![NodeMessages::default(); recording.nodes.len()];
         for (number, message) in recording.messages.iter().enumerate() {
@@ -88,7 +88,7 @@ impl<'a> Track<'a> {
 }
 
 impl Event<'_> {
-    /// Of events at one time, spans end before others begin; messages without a span come last.
+    /// The order of events at one time: spans end before others begin, and messages without a span come last.
     fn order(&self) -> u8 {
         match self {
             Event::End => 0,

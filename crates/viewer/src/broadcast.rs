@@ -66,7 +66,7 @@ struct NewShot {
 }
 
 impl Broadcast {
-    /// Of a run on `processors` compute nodes.
+    /// Broadcasts a run on `processors` compute nodes to `subscriber`.
     pub fn new(
         problem: &Problem,
         processors: usize,

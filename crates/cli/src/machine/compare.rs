@@ -107,8 +107,8 @@ fn measure(
     let every = Duration::from_seconds_f64(bytes as f64 / (share * bound));
     let load = Load { pattern, bytes, every, until: Time::ZERO + every * messages, seed };
     let trace = load.trace(topology, nodes);
-    let on = |rung| {
-        let mut network = parameters.build(rung, topology).ok_or("no such network")?;
+    let on = |model| {
+        let mut network = parameters.build(model, topology).ok_or("no such network")?;
         let replayed =
             replay(&trace, network.as_mut(), topology).map_err(|error| error.to_string())?;
         Ok::<_, String>(Measured::of(&load, &trace, &replayed))

@@ -26,11 +26,11 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     Ok(text)
 }
 
-/// All numbers under a value of the file, each with its provenance and its source, and the names of
-/// models.
+/// Writes a line for each number under `value`, with its provenance and source, and for each text, such
+/// as the name of a model.
 fn numbers(text: &mut String, place: &str, value: &Value) {
     let Value::Object(fields) = value else {
-        // Texts at the top level are the title and such.
+        // Texts at the top level, such as the title, describe the file.
         if let Some(word) = value.as_str().filter(|_| place.contains('.')) {
             let _ = writeln!(text, "{place} = {word}");
         }
@@ -50,10 +50,10 @@ fn numbers(text: &mut String, place: &str, value: &Value) {
     }
 }
 
-/// The most places of a row that are drawn; of longer rows both ends.
+/// Longest row that is drawn whole. Of a longer row only both ends are drawn.
 const WIDEST: usize = 20;
 
-/// The places row by row: compute nodes by number, service nodes as s, empty places as points.
+/// Draws the topology row by row: compute nodes as numbers, service nodes as s, empty places as dots.
 fn drawing(machine: &Machine) -> String {
     let (compute, nodes) = (machine.compute_nodes(), machine.nodes());
     let topology = machine.topology();

@@ -1,4 +1,4 @@
-//! How far a run's radiosities are from the answer.
+//! The error of a run: how far its radiosities are from the reference solution.
 
 use std::sync::Arc;
 

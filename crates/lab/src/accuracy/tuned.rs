@@ -54,7 +54,7 @@ impl Causes {
 }
 
 impl Tuned {
-    /// What was chosen for a scene and why, for people.
+    /// A sentence that says what was chosen for a scene and why.
     pub fn sentence(&self, scene: &str) -> String {
         let percent = |share: f64| format!("{:.2} %", 100.0 * share);
         let causes =

@@ -1,24 +1,24 @@
-//! What runs tell of the display.
+//! Figures of the display in a run's results.
 
 use serde::{Deserialize, Serialize};
 use virtwall::DisplayReport;
 
-/// What a run tells of the display, where one is modelled.
+/// A run's figures of the display, if its machine has one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DisplayFigures {
     /// Seconds from the end of the computation until the last update was shown.
     pub lag_s: f64,
-    /// Updates that the display has taken.
+    /// Updates that the display showed.
     pub shown: u64,
-    /// Updates that it never got.
+    /// Updates that were dropped before they reached it.
     pub dropped: u64,
-    /// Seconds that compute nodes waited for room at the service node, all added.
+    /// Seconds that compute nodes waited for room at the service node, summed over all nodes.
     pub waiting_s: f64,
-    /// Share of its life in which the service node's processor was busy.
+    /// Fraction of its life in which the service node's processor was busy.
     pub service_busy: f64,
-    /// Share of the time until all was shown in which frames were on the Ethernet.
+    /// Fraction of the time until the last update was shown in which frames were on the Ethernet.
     pub ethernet_busy: f64,
-    /// The same of the display, which takes updates in.
+    /// Fraction of that time in which the display was busy with updates.
     pub display_busy: f64,
 }
 

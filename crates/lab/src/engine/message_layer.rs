@@ -3,7 +3,7 @@
 use multicomputer::{LayerAccount, Machine, MessageLayer};
 use serde::{Deserialize, Serialize};
 
-/// What the message layer did on all compute nodes, besides overheads.
+/// What the message layer did on all compute nodes, in addition to overheads.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MessageLayerFigures {
     /// Seconds given to making packets.
@@ -18,7 +18,7 @@ pub struct MessageLayerFigures {
     pub unposted_messages: u64,
     /// Messages that had to wait for room in buffers.
     pub held_messages: u64,
-    /// The most bytes that were ever taken of one node's buffers.
+    /// Greatest number of bytes in use at a time in one node's buffers.
     pub buffer_bytes_most: u64,
 }
 

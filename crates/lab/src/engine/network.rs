@@ -1,4 +1,4 @@
-//! Which model of the network a run is simulated on, and what it tells of the network.
+//! Simulates a run on the network model that its machine asks for; figures of the network.
 
 use multicomputer::{AutoResult, Machine, NetworkModel, Record, Recorder};
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,7 @@ use crate::experiment::fields::Experiment;
 /// How far "auto" may be from the next finer model, unless the experiment says.
 const TOLERANCE: f64 = 0.01;
 
-/// What a run tells of its network, where an experiment asks for a model.
+/// Figures of the network in a run's results, if an experiment chooses a model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NetworkFigures {
     /// The model used.
@@ -22,19 +22,17 @@ pub struct NetworkFigures {
     pub blocked_s: f64,
 }
 
-/// Whether results tell of the network: an experiment that chooses the model, or leaves it open, wants to
-/// know what was used.
+/// Whether results have figures of the network: if an experiment chooses the model, or leaves it open.
 pub fn tells(machine: &Machine, point: &Experiment) -> bool {
     point.machine.chooses_network_model() || machine.network_model.is_none()
 }
 
-/// Whether runs are simulated to find out which model will do: observing one then takes another
-/// simulation.
+/// Whether the model is chosen by simulating runs. Observing a run then takes one more simulation.
 pub fn is_open(machine: &Machine) -> bool {
     machine.network_model.is_none()
 }
 
-/// Simulates a run on the machine's model of its network, and tells `observer` of it.
+/// Simulates a run on the machine's model of its network, with an observer.
 ///
 /// # Errors
 /// Why the run did not end.
@@ -57,29 +55,29 @@ pub fn simulate(
             let chosen =
                 multicomputer::choose(&machine.parameters, machine.topology(), tolerance, over)?;
             if observer.is_some() {
-                // Pilots are not what is observed, and which run is the last one shows only then.
+                // Pilot runs are not observed: only at the end is it known which of them is the final one.
                 simulate_observed(run, machine, machine.network_on(chosen.model)?, observer)?;
             }
             chosen
         }
-        Some(rung) => {
-            let (network, record) = Recorder::new(machine.network_on(rung)?);
+        Some(model) => {
+            let (network, record) = Recorder::new(machine.network_on(model)?);
             let answer = simulate_observed(run, machine, Box::new(network), observer)?;
             let time = answer.time;
-            AutoResult { model: rung, answer, time, record: record.take(), why: String::new() }
+            AutoResult { model, answer, time, record: record.take(), why: String::new() }
         }
     };
     let figures = figures(machine, &chosen);
     Ok((chosen.answer, Some(figures)))
 }
 
-/// The model that a run is simulated on; where that is left open, it is simulated to find out.
+/// The network model of a run. If the machine leaves it open, a simulation chooses it.
 ///
 /// # Errors
 /// Why the run did not end.
 pub fn rung(run: &Run, machine: &Machine, point: &Experiment) -> Result<NetworkModel, RunError> {
     match machine.network_model {
-        Some(rung) => Ok(rung),
+        Some(model) => Ok(model),
         None => {
             let (_, figures) = simulate(run, machine, point, None)?;
             Ok(figures.and_then(|figures| figures.rung.parse().ok()).unwrap_or(NetworkModel::LogGp))

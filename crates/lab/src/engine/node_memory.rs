@@ -1,9 +1,9 @@
-//! What runs tell of the memory of nodes.
+//! Figures of the memory of nodes in a run's results.
 
 use serde::{Deserialize, Serialize};
 use virtwall::Outcome;
 
-/// What a run tells of its nodes' memory, where that is modelled.
+/// Figures of the nodes' memory in a run's results, if the machine models it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NodeMemoryFigures {
     /// The most bytes that program and message buffers of one node have held.

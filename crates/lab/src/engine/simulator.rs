@@ -1,4 +1,4 @@
-//! Calls the simulator: no other folder of this crate does.
+//! Calls the simulator. No other folder of this crate does.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -39,11 +39,11 @@ pub fn operations() -> impl Iterator<Item = &'static str> {
     Operation::ALL.iter().map(|operation| operation.name())
 }
 
-/// Makes sure that a machine prices every operation, gives everything in its memory a size, and prices
-/// every step of its start-up, where it has these.
+/// Checks that a machine has a price for every operation; and, if it models them, a size for everything in
+/// a node's memory and a price for every step of the start-up.
 ///
 /// # Errors
-/// What is missing, and where; the file is left open.
+/// What is missing, and where. The caller adds the name of the file.
 pub fn check_machine(machine: &Machine) -> Result<(), Fault> {
     let processor = &machine.processor;
     let priced = |operation: &&Operation| processor.price(operation.name()).is_some();
@@ -80,8 +80,8 @@ pub fn run(
     }
 }
 
-/// Runs a point's run to the end, on the simulated `machine`, where it can be observed, or on threads:
-/// its figures, and its radiosities by environment.
+/// Carries out a run, on the simulated `machine` or on threads. Returns its figures, and its radiosities by
+/// environment. Only a simulated run has an observer.
 ///
 /// # Errors
 /// Why the run did not end.
@@ -104,8 +104,8 @@ pub fn carry_out(
     };
     let (outcome, network, start_up) = outcome.map_err(|error: RunError| error.to_string())?;
     let start_up = start_up.as_ref().map(StartUpFigures::of);
-    let tells = on == On::Simulation && message_layer::tells(machine);
-    let message_layer = tells.then(|| MessageLayerFigures::of(&outcome.layer()));
+    let has_layer = on == On::Simulation && message_layer::tells(machine);
+    let message_layer = has_layer.then(|| MessageLayerFigures::of(&outcome.layer()));
     let caches = on == On::Simulation && !machine.processor.caches.is_empty();
     let missing_s = caches.then(|| outcome.missing().as_seconds_f64());
     let translating_s = caches && machine.processor.translations.is_some();
@@ -121,8 +121,8 @@ pub fn carry_out(
 /// Radiosity in W/m², by environment and patch.
 pub type Light = Vec<Vec<Rgb>>;
 
-/// The light of a simulated run at each of `times`, in rising order; and the run's end, after which
-/// there is no other light.
+/// The light of a simulated run at each of `times`, in rising order; and the time of the run's end, after
+/// which the light does not change.
 ///
 /// # Errors
 /// Why the run did not end.
@@ -140,7 +140,7 @@ pub fn light_at(
         }
     };
     let outcome = network::rung(run, machine, point)
-        .and_then(|rung| Ok(machine.network_on(rung)?))
+        .and_then(|model| Ok(machine.network_on(model)?))
         .and_then(|network| virtwall::visit_instants(run, machine, network, times, visit))
         .map_err(|error| error.to_string())?;
     Ok((light.take(), outcome.time))
@@ -154,12 +154,12 @@ pub struct Stopped {
     pub unshot: f64,
     /// Radiosity in W/m², by patch, one environment after the other.
     pub radiosity: Vec<Rgb>,
-    /// What the ambient term would add where all is reflected, W/m².
+    /// What the ambient term would add to a patch that reflects everything, W/m².
     pub ambient: Rgb,
 }
 
-/// A run on one processor as it would end at each of `thresholds`, in falling order, the last of which is
-/// its own.
+/// The states in which a run on one processor would end at each of `thresholds`, in falling order. The last
+/// one is the threshold of the run itself.
 ///
 /// # Errors
 /// Why the run did not end.
@@ -183,11 +183,12 @@ pub fn stops(
             });
         }
     };
-    let rung = network::rung(run, machine, point).map_err(|error| error.to_string())?;
-    // Among several environments a run is not the beginning of another one.
-    let together = if run.problem.environments.len() == 1 { thresholds.len().max(1) } else { 1 };
-    for thresholds in thresholds.chunks(together) {
-        let network = machine.network_on(rung).map_err(|error| error.to_string())?;
+    let model = network::rung(run, machine, point).map_err(|error| error.to_string())?;
+    // With several environments a run does not begin like one with a lower threshold, so each threshold
+    // needs a run of its own.
+    let per_run = if run.problem.environments.len() == 1 { thresholds.len().max(1) } else { 1 };
+    for thresholds in thresholds.chunks(per_run) {
+        let network = machine.network_on(model).map_err(|error| error.to_string())?;
         let mut run = run.clone();
         run.rules.patch_threshold = thresholds[thresholds.len() - 1];
         virtwall::visit_stops(&run, machine, network, thresholds, visit.clone())
@@ -196,7 +197,7 @@ pub fn stops(
     Ok(stops.take())
 }
 
-/// Shots after which a scene counts as solved.
+/// Limit on the shots of [`solved`].
 const MOST_SHOTS: u64 = 5_000;
 
 /// The light in a problem of one environment when less than the share `unshot` is unshot, or after
@@ -212,13 +213,13 @@ pub fn solved(problem: &Problem, unshot: f64) -> (Light, f64) {
     (vec![radiosity], if emitted > 0.0 { left / emitted } else { 0.0 })
 }
 
-/// Runs a point's run to the end on the simulated `machine`: all that it found.
+/// Carries out a run on the simulated `machine`; returns its whole outcome.
 ///
 /// # Errors
 /// Why the run did not end.
 pub fn outcome(run: &Run, point: &Experiment, machine: &Machine) -> Result<Outcome, String> {
-    let found = network::simulate(run, machine, point, None);
-    found.map(|(outcome, _)| outcome).map_err(|error| error.to_string())
+    let simulated = network::simulate(run, machine, point, None);
+    simulated.map(|(outcome, _)| outcome).map_err(|error| error.to_string())
 }
 
 /// The outcome's figures; times only if they are virtual.

@@ -6,11 +6,11 @@ use virtwall::StartUpReport;
 /// Start-up of the compute node that is ready last, in seconds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StartUpFigures {
-    /// Until it was ready.
+    /// Time until it was ready.
     pub start_up_s: f64,
-    /// Of that, until it had read the scene.
+    /// Part of `start_up_s` until it had read the scene.
     pub reading_s: f64,
-    /// Of that, its waiting for requests of others at I/O nodes.
+    /// Part of `reading_s` in which it waited at I/O nodes for requests of other nodes.
     pub disk_wait_s: f64,
 }
 

@@ -1,4 +1,4 @@
-//! An experiment file, typed: one point of its sweep, every field as the user may write it.
+//! The fields of an experiment file, as Rust types. An [`Experiment`] is one point of a sweep.
 
 use std::collections::BTreeMap;
 
@@ -16,7 +16,7 @@ use crate::experiment::source_split::SplitFields;
 use crate::files::counts::Triple;
 use crate::files::quantity::{Fraction, Length, Period};
 
-/// Fields of an experiment file in which a list is no sweep.
+/// Fields of an experiment file in which a list does not make a sweep.
 pub const UNSWEPT: [&str; 4] = ["$schema", "title", "compare_with", "plots"];
 
 /// An experiment: the runs of a scene on a machine, and what to draw of them.

@@ -1,4 +1,4 @@
-//! The field `hemisphere`.
+//! The field `hemisphere`: the rays of a source.
 
 use radiosity::HemisphereKind;
 use schemars::JsonSchema;

@@ -1,4 +1,4 @@
-//! What carries light across from one local environment to the next, as an experiment says it.
+//! The fields `interfaces` and `virtual_walls`: what carries light from one local environment to the next.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,10 +1,10 @@
-//! Smaller patches where radiosity changes, as an experiment asks for them.
+//! The field "refine" of an experiment: smaller patches where radiosity changes.
 
 use radiosity::Wanted;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// An edge is halved no more often.
+/// Greatest number of times that an edge may be halved.
 pub const MOST_HALVINGS: u32 = 6;
 
 /// Smaller patches where radiosity changes, and nowhere else. A pilot run finds out where that is, before
@@ -35,7 +35,7 @@ impl RefineFields {
         self.relative_l2.is_none()
     }
 
-    /// What is wanted, if anything.
+    /// The refinement that the experiment asks for, if any.
     pub fn wanted(&self) -> Option<Wanted> {
         let RefineFields { relative_l2, most_halvings } = *self;
         relative_l2.map(|relative_l2| Wanted { relative_l2, most_halvings })

@@ -1,4 +1,4 @@
-//! Into how many sources a patch is cut, as an experiment says it.
+//! The field `source_split`: into how many sources a patch is divided.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -5,13 +5,13 @@ use serde_json::Value;
 
 use crate::experiment::fields::UNSWEPT;
 
-/// More runs than anyone means to start.
+/// Largest number of runs of an experiment; more is taken for a mistake.
 const MOST_RUNS: usize = 100_000;
 
 /// A swept field.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// Where its list stands.
+    /// Place of its list in the file.
     pub place: Place,
     /// Its values, in the file's order.
     pub values: Vec<Value>,
@@ -39,8 +39,7 @@ impl Sweep {
     /// Finds every list of an experiment file and takes their product.
     ///
     /// # Errors
-    /// If a list is empty, holds something twice or anything but single values, or if there are
-    /// too many runs.
+    /// If a list is empty, holds a value twice or another list, or if there are too many runs.
     pub fn of(document: &Document) -> Result<Sweep, Fault> {
         let mut axes = Vec::new();
         find_axes(document, &document.value, &Place::default(), &mut axes)?;
@@ -53,7 +52,8 @@ impl Sweep {
         Ok(Sweep { axes, points })
     }
 
-    /// The place in the file of a place in one of its points: at a swept field, the item.
+    /// Translates a place in a point to its place in the file. In a swept field, that is inside the list's
+    /// item.
     pub fn place_in_file(&self, point: &Point, place: Place) -> Place {
         let mut axes = self.axes.iter().zip(&point.index);
         match axes.find(|(axis, _)| axis.place.holds(&place)) {
@@ -113,8 +113,8 @@ fn has_list(value: &Value) -> bool {
     }
 }
 
-/// A value in words: fields of an object by their paths, but for the name of what it extends, which
-/// comes first by itself.
+/// A value as text for tables. For an object: the name that it extends, then its other fields, each with
+/// its path.
 pub fn in_words(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
@@ -133,7 +133,8 @@ pub fn in_words(value: &Value) -> String {
     }
 }
 
-/// The `run`th point: a mixed-radix count over the axes, the last one fastest.
+/// Point number `run`. Its index has the digits of `run` in the mixed radix of the axes, the last axis
+/// fastest.
 fn point(file: &Value, axes: &[Axis], run: usize) -> Point {
     let mut value = file.clone();
     let mut index = vec![0; axes.len()];
@@ -146,7 +147,7 @@ fn point(file: &Value, axes: &[Axis], run: usize) -> Point {
     Point { index, value }
 }
 
-/// Puts `item` where a list stands.
+/// Replaces the list at `place` by `item`.
 fn put(value: &mut Value, place: &Place, item: &Value) {
     let target = place.0.iter().fold(value, |value, step| match step {
         Step::Key(key) => &mut value[key.as_str()],

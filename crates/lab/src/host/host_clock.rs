@@ -1,18 +1,18 @@
-//! The host's clock. No result depends on it.
+//! Clocks of the host. No result depends on them.
 
 use std::time::Instant;
 
 use cpu_time::ThreadTime;
 use serde::{Deserialize, Serialize};
 
-/// A moment of host time.
+/// A stopwatch for elapsed time and for the CPU time of one thread.
 pub struct HostClock {
     instant: Instant,
     thread: ThreadTime,
 }
 
 impl HostClock {
-    /// Starts counting.
+    /// Starts the stopwatch.
     #[expect(clippy::disallowed_methods, reason = "goes to host-times.json alone")]
     pub fn start() -> HostClock {
         HostClock { instant: Instant::now(), thread: ThreadTime::now() }
@@ -23,8 +23,8 @@ impl HostClock {
         self.instant.elapsed().as_secs_f64()
     }
 
-    /// CPU seconds of this thread, which started the clock, since then: others that share its
-    /// processor do not lengthen them.
+    /// CPU seconds since the start, of the thread that started it and must call this. Time in which other
+    /// threads had the processor does not count.
     pub fn cpu_seconds(&self) -> f64 {
         self.thread.elapsed().as_secs_f64()
     }
@@ -38,12 +38,12 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// Of this number of seconds; due at once.
+    /// An interval of `every` seconds; due at once for the first time.
     pub fn new(every: f64) -> Interval {
         Interval { clock: HostClock::start(), every, due: 0.0 }
     }
 
-    /// Whether it is due; if so, next time is an interval from now.
+    /// Whether it is due. If so, it is due again one interval from now.
     pub fn is_due(&mut self) -> bool {
         let now = self.clock.seconds();
         let due = now >= self.due;
@@ -57,10 +57,11 @@ impl Interval {
 /// Host times of one run.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct HostTimes {
-    /// CPU seconds of the thread that did it; what other threads did for it is not among them.
+    /// CPU seconds of the thread that carried out the run, without the help of other threads.
     pub cpu_s: f64,
-    /// CPU seconds of making its scene ready: reading, cleaning, cutting, meshing. Runs share it.
+    /// CPU seconds to prepare its scene: reading, cleaning, cutting, meshing. Runs of the same scene share
+    /// this work.
     pub set_up_s: f64,
-    /// Seconds on the clock.
+    /// Elapsed seconds.
     pub clock_s: f64,
 }

@@ -1,4 +1,4 @@
-//! A scene with its light, of its own or of a run at any instant, to be drawn.
+//! A scene with light to draw: its own solution, or the light of a run at any instant.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -21,7 +21,7 @@ use crate::planning::preparing::Preparing;
 
 /// A scene, and where its light comes from.
 pub struct Stage {
-    /// What it is, for people.
+    /// Title of the picture or file.
     pub title: String,
     /// The run that lights it; none if the scene is solved without a run.
     pub run: Option<StagedRun>,

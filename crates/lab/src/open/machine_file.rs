@@ -1,4 +1,4 @@
-//! Machine files, of which one may say only what it changes of another.
+//! Reads machine files. A file may extend another one and state only what differs.
 
 use std::path::Path;
 
@@ -59,7 +59,7 @@ impl MachineFile {
     /// The machine with an experiment's changes.
     ///
     /// # Errors
-    /// What is wrong, and where in the machine; the file is left open.
+    /// What is wrong, and where in the machine. The caller adds the name of the file.
     pub fn changed(&self, mut changes: Value) -> Result<Machine, Fault> {
         with_source(&mut changes, "the experiment");
         let mut value = self.value.clone();

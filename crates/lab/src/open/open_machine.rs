@@ -1,4 +1,4 @@
-//! A machine outside any experiment: to be looked at and measured.
+//! A machine without an experiment, to show and to measure it.
 
 use std::path::Path;
 

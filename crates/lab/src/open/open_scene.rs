@@ -1,4 +1,4 @@
-//! A scene outside any experiment, for statistics and pictures.
+//! A scene without an experiment, for statistics and pictures.
 
 use std::path::Path;
 

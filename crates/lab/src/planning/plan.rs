@@ -112,7 +112,7 @@ pub struct Run {
     pub machine: usize,
     /// Index into [`Plan::references`]; none where a run has no reference, or a dense one.
     pub stored: Option<usize>,
-    /// How its knobs were found, where they were.
+    /// How its settings were found, if the experiment asks for an accuracy.
     pub tuned: Option<Tuned>,
 }
 

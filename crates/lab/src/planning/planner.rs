@@ -165,7 +165,7 @@ impl Planner<'_> {
         Err(Fault::of_file(&self.document.file, message))
     }
 
-    /// Reads and checks one point of the sweep, but for its scene.
+    /// Reads and checks one point of the sweep, except its scene.
     fn draft<'p>(&mut self, point: &'p Point) -> Result<Draft<'p>, Fault> {
         let typed: Experiment = read(&point.value).map_err(|fault| {
             self.document.fault(&self.sweep.place_in_file(point, fault.place), fault.message)

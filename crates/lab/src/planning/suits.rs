@@ -1,4 +1,4 @@
-//! Whether a machine suits what an experiment asks of it.
+//! Checks that a machine has what an experiment needs.
 
 use multicomputer::Machine;
 

@@ -7,7 +7,7 @@ use crate::table::runs_csv::Table;
 
 /// One line of the table: a run and its published figures.
 pub struct Line {
-    /// The scene, and the values of what is swept besides: what the lines of a group share.
+    /// What the lines of a group share: the scene, and the values of other swept fields.
     pub group: String,
     /// Processors.
     pub processors: String,

@@ -1,4 +1,4 @@
-//! A folder of results: written, and read again to be redrawn.
+//! A folder of results: writes it, and reads it to draw plots and report again.
 
 use std::fs;
 use std::io;

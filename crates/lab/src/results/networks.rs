@@ -15,10 +15,10 @@ pub type Finest = BTreeMap<Vec<usize>, (NetworkModel, f64)>;
 /// The finest runs of a plan.
 pub fn finest(plan: &Plan, endings: &Endings) -> Finest {
     let mut finest = Finest::new();
-    for (run, rung, time) in timed(plan, endings) {
-        let found = finest.entry(all_else(plan, run, NETWORK_MODEL)).or_insert((rung, time));
-        if rung > found.0 {
-            *found = (rung, time);
+    for (run, model, time) in timed(plan, endings) {
+        let found = finest.entry(all_else(plan, run, NETWORK_MODEL)).or_insert((model, time));
+        if model > found.0 {
+            *found = (model, time);
         }
     }
     finest
@@ -30,15 +30,15 @@ fn timed<'a>(
     endings: &'a Endings,
 ) -> impl Iterator<Item = (&'a Run, NetworkModel, f64)> + use<'a> {
     plan.runs.iter().zip(&endings.runs).filter_map(|(run, ending)| {
-        let (rung, time) = of(ending.as_ref()?)?;
-        Some((run, rung, time))
+        let (model, time) = of(ending.as_ref()?)?;
+        Some((run, model, time))
     })
 }
 
 fn of(ending: &Ending) -> Option<(NetworkModel, f64)> {
     let figures = ending.as_ref().ok()?;
-    let rung = figures.network.as_ref()?.rung.parse().ok()?;
-    Some((rung, figures.time_s?))
+    let model = figures.network.as_ref()?.rung.parse().ok()?;
+    Some((model, figures.time_s?))
 }
 
 /// For each model of a sweep over networks, its largest difference from the finest, and the host time of its

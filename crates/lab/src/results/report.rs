@@ -1,4 +1,4 @@
-//! The report: one page, complete in itself.
+//! The report: one HTML page that needs no other file.
 
 use std::fmt::Write;
 
@@ -14,12 +14,12 @@ use crate::table::runs_csv::Table;
 
 const STYLE: &str = include_str!("report.css");
 
-/// How to read the column of ratios, where there is something to compare with.
+/// Explains the column of ratios, if results are compared with published ones.
 const RATIOS: &str = "<p>Ratios are simulated over paper: of speed-ups, and of times (t) on one \
                       processor.</p>\n";
 
-/// The page on the results of `manifest`, whose runs are `runs`, swept over the fields `sweeps`;
-/// `drawings` are its plots, as SVG, and `recorded` what its viewer shows.
+/// The report. `runs` are the rows of runs.csv, `sweeps` the swept fields, `drawings` the plots as SVG, and
+/// `recorded` the data of the viewer, if there is any.
 pub fn html(
     manifest: &Value,
     runs: &Table,
@@ -120,7 +120,7 @@ fn list(title: &str, class: &str, items: &[String]) -> String {
     format!("<h2>{title}</h2>\n<ul class=\"{class}\">\n{items}</ul>\n")
 }
 
-/// The runs in the manner of Table 1, a body of rows for each scene.
+/// The runs as a table like Table 1, with a group of rows for each scene.
 fn grouped(lines: &[Line]) -> String {
     let mut rows = String::new();
     let mut group = None;
@@ -143,7 +143,7 @@ fn grouped(lines: &[Line]) -> String {
     )
 }
 
-/// What accuracy costs, where runs have errors.
+/// The section on what accuracy costs, if runs have errors.
 fn cheapest(runs: &Table, sweeps: &[String]) -> String {
     let cheapest = cheapest::cheapest(runs, sweeps);
     if cheapest.is_empty() {
@@ -163,7 +163,7 @@ fn cheapest(runs: &Table, sweeps: &[String]) -> String {
     )
 }
 
-/// The columns of runs.csv that hold something, but for those too long for a page.
+/// The columns of runs.csv that are not empty, except those whose cells are too long for a page.
 fn shown_columns(table: &Table) -> Vec<&str> {
     let holds = |column: &&str| table.rows.iter().any(|row| !table.cell(row, column).is_empty());
     let names = table.columns.iter().map(String::as_str);
@@ -184,7 +184,7 @@ fn table(names: &[&str], table: &Table) -> String {
     )
 }
 
-/// Every field whose description says that it is a choice, with what it is here.
+/// The table of all fields whose description marks a choice, with their values in this experiment.
 fn choices(manifest: &Value) -> String {
     let mut rows = Vec::new();
     collect_choices(&experiment_schema(), &manifest["experiment"], "", &mut rows);

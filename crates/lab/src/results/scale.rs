@@ -4,14 +4,14 @@ use std::ops::Range;
 
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 
-/// About how many ticks an axis has.
+/// Approximate number of ticks of a linear axis.
 const TICKS: f64 = 7.0;
-/// Most values that each have a tick.
+/// Largest number of values that can each have a tick.
 const FEW: usize = 12;
-/// Least share of the axis between two such ticks.
+/// Smallest distance between two such ticks, as a share of the axis.
 const ROOM: f64 = 0.04;
 
-/// An axis: positions of values, and ticks.
+/// An axis: maps values to positions, and has ticks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scale {
     low: f64,
@@ -51,8 +51,8 @@ impl Scale {
         Scale { low, high, logarithmic: true, ticks, names: Vec::new() }
     }
 
-    /// The axis with its ticks at the values themselves, where they are few: as many as have room,
-    /// the greatest first.
+    /// The axis with its ticks at the values themselves, if there are only a few. A tick too close to that
+    /// of a greater value is left out.
     pub fn ticked_at(mut self, values: impl Iterator<Item = f64>) -> Scale {
         let mut values: Vec<f64> = values.collect();
         values.sort_by(|a, b| b.total_cmp(a));
@@ -70,13 +70,14 @@ impl Scale {
         self
     }
 
-    /// Names at 0, 1, 2, ...
+    /// An axis of names, at 0, 1, 2, ...
     pub fn names(names: &[String]) -> Scale {
         let ticks = (0..names.len()).map(|i| i as f64).collect();
         let high = names.len() as f64 - 0.5;
         Scale { low: -0.5, high, logarithmic: false, ticks, names: names.to_vec() }
     }
 
+    /// Position of a value on the axis: 0 at its low end, 1 at its high end.
     fn share(&self, value: f64) -> f64 {
         if self.logarithmic {
             (value / self.low).ln() / (self.high / self.low).ln()
@@ -114,7 +115,7 @@ impl ValueFormatter<f64> for Scale {
     }
 }
 
-/// 1, 2 or 5 times a power of ten, not much below `step`.
+/// The smallest of 1, 2 or 5 times a power of ten that is not below `step`.
 fn nice_step(step: f64) -> f64 {
     let power = 10_f64.powf(step.log10().floor());
     [1.0, 2.0, 5.0, 10.0]
@@ -124,11 +125,12 @@ fn nice_step(step: f64) -> f64 {
         .unwrap_or(step)
 }
 
+/// The text of a tick: with an exponent if the value is very large or very small.
 fn tick_text(value: f64) -> String {
     let magnitude = value.abs();
     let short = format!("{value:.0e}");
-    let much = magnitude >= 1e7 || magnitude >= 1e5 && short.parse() == Ok(value);
-    if value != 0.0 && (magnitude < 1e-4 || much) {
+    let large = magnitude >= 1e7 || magnitude >= 1e5 && short.parse() == Ok(value);
+    if value != 0.0 && (magnitude < 1e-4 || large) {
         return short;
     }
     // Ticks have few digits; rounding hides that 3 × 0.1 is not quite 0.3.

@@ -101,7 +101,7 @@ impl Series {
     }
 }
 
-/// The name of a row's line: its series, and what is swept besides.
+/// The name of a row's line: its series, and the values of other swept fields.
 fn name(table: &Table, row: &[String], sweeps: &[String], plot: &Plot) -> String {
     let series = plot.series.iter();
     let others =

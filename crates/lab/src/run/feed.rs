@@ -1,4 +1,4 @@
-//! News of runs that are under way, for live viewers.
+//! Sends updates of runs that are under way to live viewers.
 
 use std::sync::Arc;
 
@@ -6,22 +6,22 @@ use viewer::Subscriber;
 
 use crate::host::host_clock::Interval;
 
-/// Receives news of a run, by its index in [`crate::Plan::runs`]. The simulating thread calls it, so it must
-/// return at once.
+/// Receives updates of a run, with the run's index in [`crate::Plan::runs`]. The simulating thread calls it, so
+/// it must return at once.
 pub type Feed = Arc<dyn Fn(usize, News) + Send + Sync>;
 
-/// What is new of a run.
+/// An update of a run.
 pub enum News {
-    /// What has happened since the part before, as the viewer's page reads it.
+    /// What has happened since the part before, in the format of the viewer's page.
     Part(String),
-    /// It has ended.
+    /// The run has ended.
     End,
 }
 
 /// Host seconds between parts.
 const BETWEEN_PARTS: f64 = 0.2;
 
-/// Passes the news of one run to a feed.
+/// Passes the updates of one run to a feed.
 pub struct Follower {
     run: usize,
     feed: Feed,
@@ -29,7 +29,7 @@ pub struct Follower {
 }
 
 impl Follower {
-    /// Of a run.
+    /// A follower of one run, given by its index.
     pub fn new(run: usize, feed: Feed) -> Follower {
         Follower { run, feed, interval: Interval::new(BETWEEN_PARTS) }
     }

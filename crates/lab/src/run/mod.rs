@@ -3,7 +3,7 @@
 //! - [`runner`]: Worker threads that carry out a plan.
 //! - [`queue`]: Which run is next.
 //! - [`progress`]: Progress counters of a run.
-//! - [`feed`]: Runs for live viewers.
+//! - [`feed`]: Updates of a run for live viewers.
 //! - [`saved`]: Finished runs of an interrupted sweep.
 //! - [`shot_files`]: Kept shots in files.
 //! - [`traces`]: Trace files of runs.

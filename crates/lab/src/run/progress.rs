@@ -38,7 +38,7 @@ pub struct ProgressObserver<T> {
 }
 
 impl<T: FnMut(Counters)> ProgressObserver<T> {
-    /// Of a run.
+    /// An observer of `run` that calls `report` with its counters.
     pub fn new(run: &Run, report: T) -> ProgressObserver<T> {
         ProgressObserver {
             counters: Counters { nodes: run.processors, ..Counters::default() },

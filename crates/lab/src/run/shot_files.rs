@@ -70,7 +70,7 @@ impl ShotFiles {
         Box::new(ShotFile { folder, problem, trouble, shots: Mutex::new(shots) })
     }
 
-    /// The files of a problem, the largest first, as many as may well be open at a time.
+    /// The files of a problem, the largest first, limited to a number that can be open at a time.
     fn paths(&self, problem: &str) -> Vec<PathBuf> {
         let entries = fs::read_dir(&self.folder).into_iter().flatten().flatten();
         let named = entries

@@ -45,7 +45,7 @@ impl Viewing {
     }
 }
 
-/// Of the runs of each scene the first ones on the fewest and on the most processors.
+/// Chooses for each scene the first run on the fewest and the first on the most processors.
 fn ends(plan: &Plan) -> Vec<bool> {
     let mut chosen = vec![false; plan.runs.len()];
     let mut scenes: Vec<&str> = plan.runs.iter().map(|run| run.point.scene.as_str()).collect();

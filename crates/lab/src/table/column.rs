@@ -1,4 +1,4 @@
-//! A column of runs.csv, and what its cells are made of.
+//! A column of runs.csv, and the data from which its cells are computed.
 
 use multicomputer::Machine;
 use virtwall::Problem;

@@ -41,7 +41,7 @@ impl Comparison {
     }
 }
 
-/// A line, from 1, where one is known, and what is wrong there.
+/// An error in the file: its line, counted from 1, if known, and what is wrong there.
 type Wrong = (Option<u64>, String);
 
 fn parse(text: &[u8]) -> Result<Comparison, Wrong> {

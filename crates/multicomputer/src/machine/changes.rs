@@ -1,4 +1,4 @@
-//! What experiments change of a machine: fields of a machine file, numbers as bare values.
+//! Changes of a machine by an experiment: fields of a machine file, with numbers as bare values.
 
 use config::schema;
 use serde_json::{Value, json};

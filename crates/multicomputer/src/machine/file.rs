@@ -1,4 +1,4 @@
-//! A machine file as it stands on disk. [`crate::Machine`] is what comes of it.
+//! The fields of a machine file. [`crate::Machine`] is the checked machine made from them.
 
 use std::collections::BTreeMap;
 use std::num::{NonZeroU8, NonZeroU16};

@@ -1,4 +1,4 @@
-//! A machine, as its file describes it, checked once at the door.
+//! A machine as its file describes it. All its numbers are checked when it is made.
 
 use config::{Bytes, Document, Fault, Place as Field, Quantity, read, refuse_unknown_keys};
 use serde_json::Value;
@@ -17,14 +17,14 @@ use crate::node::Processor;
 use crate::node::{StartUp, StartUpFile};
 use crate::sourced::Sourced;
 
-/// Largest network, in places: beyond it a file can only be a slip.
+/// Largest number of places of a network; more is taken for a mistake in the file.
 const MOST_PLACES: u32 = 65_536;
-/// Longest flit, bytes: as long as a link's bandwidth can be told from a message's.
+/// Longest flit, bytes. With longer ones a link's bandwidth could not be distinguished from a message's.
 const LONGEST_FLIT: f64 = 1e9;
 
-/// Most virtual channels a link: real routers have a handful.
+/// Largest number of virtual channels per link; real routers have a few.
 const MOST_VIRTUAL_CHANNELS: u8 = 16;
-/// Largest thing that a program keeps many of, bytes: sums of them stay countable.
+/// Largest size of one thing in a node's memory, bytes, so that sums of sizes do not overflow.
 const LARGEST_THING: u64 = 1_000_000_000;
 
 /// A distributed-memory machine.
@@ -109,7 +109,7 @@ impl Machine {
     /// Reads what a machine file says, with all that it extends.
     ///
     /// # Errors
-    /// The field at fault, what was found and what was expected; the file is left open.
+    /// The field at fault, what was found and what was expected. The caller adds the name of the file.
     pub fn of(file: &Value) -> Result<Machine, Fault> {
         refuse_unknown_keys(&FIELDS, file)?;
         validate(read(file)?)

@@ -1,4 +1,4 @@
-//! Deadlock in the network: messages that wait for each other in a circle.
+//! Deadlock in the network: messages that wait for each other in a cycle.
 
 use std::error::Error;
 use std::fmt;

@@ -98,9 +98,9 @@ impl ModelChoice {
 /// Parameters of a machine's network.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NetworkParameters {
-    /// Of the message layer; every model but `ideal` needs them.
+    /// Parameters of the message layer. Every model but `ideal` needs them.
     pub software: Option<LogGpParameters>,
-    /// Of the links; the models with contention need them.
+    /// Parameters of the links. The models with contention need them.
     pub links: Option<LinkParameters>,
 }
 

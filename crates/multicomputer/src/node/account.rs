@@ -1,4 +1,4 @@
-//! Where a node's time went.
+//! A node's account: its time, by activity.
 
 use desim::{Duration, Time};
 

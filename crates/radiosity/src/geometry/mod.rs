@@ -1,4 +1,4 @@
-//! Geometry that knows no scene.
+//! Geometry that does not depend on scenes.
 
 mod bounds; // axis-aligned boxes
 mod box_tree; // a bounding volume hierarchy: which boxes can a bundle of rays meet?

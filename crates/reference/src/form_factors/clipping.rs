@@ -5,8 +5,9 @@ use radiosity::glam::DVec3;
 /// Corners of a convex planar polygon, in order.
 pub(crate) type Ring = Vec<DVec3>;
 
-/// The parts of a convex polygon on either side of a plane: where `height`, which is linear, is not
-/// negative, and the rest. A part with fewer than three corners is empty.
+/// The two parts of a convex polygon on either side of a plane. `height` is the signed distance to the plane,
+/// or any other linear function; the first part is where it is not negative. A part with fewer than three
+/// corners is empty.
 pub(crate) fn split(ring: &[DVec3], height: impl Fn(DVec3) -> f64) -> [Ring; 2] {
     let mut parts = [Vec::with_capacity(ring.len() + 2), Vec::with_capacity(ring.len() + 2)];
     let Some(&last) = ring.last() else { return parts };
@@ -27,7 +28,7 @@ pub(crate) fn split(ring: &[DVec3], height: impl Fn(DVec3) -> f64) -> [Ring; 2] 
     parts
 }
 
-/// The part of a convex polygon where `height`, which is linear, is not negative.
+/// The part of a convex polygon where the linear function `height` is not negative.
 pub(crate) fn above(ring: &[DVec3], height: impl Fn(DVec3) -> f64) -> Ring {
     let [above, _] = split(ring, height);
     above
@@ -37,32 +38,32 @@ pub(crate) fn above(ring: &[DVec3], height: impl Fn(DVec3) -> f64) -> Ring {
 /// the origin; the pieces face it; `inwards` are the planes of the polygon's [`sides`], pointing inwards.
 pub(crate) fn cut_out(pieces: Vec<Ring>, polygon: &[DVec3], inwards: &[DVec3]) -> Vec<Ring> {
     // Two convex polygons that do not overlap are separated by an edge of one of them.
-    let beside = |piece: &Ring| {
+    let separate = |piece: &Ring| {
         separates(inwards, polygon, piece) || separates(&sides(piece), piece, polygon)
     };
-    if pieces.iter().all(beside) {
+    if pieces.iter().all(separate) {
         return pieces;
     }
-    let mut left = Vec::with_capacity(pieces.len() + inwards.len());
+    let mut visible = Vec::with_capacity(pieces.len() + inwards.len());
     for piece in pieces {
-        if beside(&piece) {
-            left.push(piece);
+        if separate(&piece) {
+            visible.push(piece);
             continue;
         }
         let mut inside = piece;
         for side in inwards {
             let [kept, outside] = split(&inside, |p| side.dot(p));
             if !outside.is_empty() {
-                left.push(outside);
+                visible.push(outside);
             }
             inside = kept;
         }
     }
-    left
+    visible
 }
 
-/// Whether one of the planes has one ring on its upper side and another on its lower. Both must be tested, since
-/// the plane of an edge of length 0 is arbitrary.
+/// Whether one of the planes has the ring `upper` on its upper side and the ring `lower` on its lower side.
+/// Both sides are tested, since the plane of an edge of length 0 is arbitrary.
 fn separates(planes: &[DVec3], upper: &[DVec3], lower: &[DVec3]) -> bool {
     planes.iter().any(|plane| {
         let slack = 1e-12 * plane.length();
@@ -72,7 +73,8 @@ fn separates(planes: &[DVec3], upper: &[DVec3], lower: &[DVec3]) -> bool {
     })
 }
 
-/// A ring without corners that repeat the one before within a tolerance.
+/// The ring without corners that are within `tolerance` of the corner before; empty if fewer than three are
+/// left.
 pub(crate) fn without_repeats(mut ring: Ring, tolerance: f64) -> Ring {
     ring.dedup_by(|next, before| next.distance(*before) <= tolerance);
     while ring.len() > 1 && ring[0].distance(ring[ring.len() - 1]) <= tolerance {

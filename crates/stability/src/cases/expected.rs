@@ -1,4 +1,4 @@
-//! What is right: bounds by measure.
+//! The expected result of a case: bounds on its measures.
 
 use std::collections::BTreeMap;
 

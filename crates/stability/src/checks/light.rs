@@ -1,4 +1,4 @@
-//! Energy balance and radiosities of the runs.
+//! Measures of light: energy balance and radiosities of the runs.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! What is missing to a perfect speed-up, as a product of factors.
+//! The gap to a perfect speed-up, as a product of factors.
 
 use std::fmt::Write;
 

@@ -19,7 +19,7 @@ pub(crate) struct TimeBreakdown {
 }
 
 impl TimeBreakdown {
-    /// Of one node, until `end`, when the last node knew that the run was over.
+    /// The breakdown for one node, until `end`, when the last node knew that the run was over.
     pub fn of(node: &NodeRecord, end: Time) -> TimeBreakdown {
         let shots = || node.spans().filter(|span| is_shot(span.activity));
         let first = shots().map(|span| span.from).next().unwrap_or(Time::MAX);

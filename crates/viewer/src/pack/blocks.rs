@@ -25,7 +25,7 @@ pub(crate) struct Blocks<'a> {
 }
 
 impl<'a> Blocks<'a> {
-    /// Of as many of the runs as about `limit` bytes have room for.
+    /// The blocks of as many runs as fit into about `limit` bytes.
     pub fn of(runs: &'a [AnalysedRun], limit: usize) -> Blocks<'a> {
         let recorded = runs.len();
         let shown = fitting(runs, limit);

@@ -14,7 +14,7 @@ pub(crate) struct Shots<'a> {
 }
 
 impl<'a> Shots<'a> {
-    /// Of all recordings, numbered in the order of the recordings, nodes and times.
+    /// The shots of all recordings, numbered in the order of recordings, nodes and times.
     pub fn of(recordings: impl Iterator<Item = &'a LightRecording>) -> Shots<'a> {
         let mut shots = Shots { numbers: BTreeMap::new(), shots: Vec::new() };
         for shot in recordings.flat_map(|recording| recording.shots.iter().flatten()) {
@@ -31,8 +31,8 @@ impl<'a> Shots<'a> {
         self.numbers.get(&shot.key).copied().unwrap_or_default()
     }
 
-    /// All of them as columns. Form factors count in pixels, or in 256ths of a pixel where pixels differ
-    /// in form factor or media absorb a part.
+    /// All shots as columns. The unit of form factors is a pixel, or 1/256 of a pixel if pixels have different
+    /// form factors or media absorb light.
     pub fn columns(&self, problem: &Problem) -> Columns {
         let pixels = f64::from(problem.hemisphere.pixels());
         let whole = |hit: &(u32, f32)| {
@@ -47,7 +47,7 @@ impl<'a> Shots<'a> {
     }
 }
 
-/// The unit of form factors where pixels differ.
+/// The unit of form factors if pixels have different ones: 1/256 of a pixel.
 pub(crate) fn fine_unit(problem: &Problem) -> f64 {
     1.0 / f64::from(problem.hemisphere.pixels()) / 256.0
 }
@@ -59,8 +59,8 @@ pub(crate) fn shot_columns(shots: &[&RecordedShot], unit: f64, columns: &mut Col
     columns.ints(shots.iter().map(|shot| u64::from(shot.environment)));
     columns.ints(shots.iter().map(|shot| shot.hits.len() as u64));
     columns.ints(shots.iter().flat_map(|shot| {
-        let last = [0].into_iter().chain(shot.hits.iter().map(|hit| hit.0));
-        shot.hits.iter().zip(last).map(|(hit, last)| u64::from(hit.0 - last))
+        let previous = [0].into_iter().chain(shot.hits.iter().map(|hit| hit.0));
+        shot.hits.iter().zip(previous).map(|(hit, previous)| u64::from(hit.0 - previous))
     }));
     columns.ints(shots.iter().flat_map(|shot| shot.hits.iter().map(|hit| units(f64::from(hit.1)))));
     columns.ints(shots.iter().map(|shot| units(shot.backs)));

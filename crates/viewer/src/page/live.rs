@@ -33,7 +33,7 @@ pub struct LivePage {
 }
 
 impl LivePage {
-    /// Of some runs; `updates` is the URL of the stream of server-sent events.
+    /// The page of `runs`; `updates` is the URL of the stream of server-sent events.
     pub fn of(runs: &[LiveRun], updates: &str) -> LivePage {
         let mut problems: Vec<Arc<Problem>> = Vec::new();
         let mut scenes = Vec::new();

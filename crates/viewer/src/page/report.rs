@@ -17,7 +17,7 @@ pub struct ReportParts {
 const MARKS: [&str; 2] = ["<!-- recorded: -->\n", "<!-- :recorded -->\n"];
 
 impl ReportParts {
-    /// Of some runs, about `limit` bytes of data at most, packed on `threads` threads.
+    /// The parts for `runs`, with at most about `limit` bytes of data, packed on `threads` threads.
     pub fn of(runs: &[RecordedRun], limit: usize, threads: usize) -> ReportParts {
         let runs: Vec<AnalysedRun> = runs.iter().map(AnalysedRun::of).collect();
         let blocks = Blocks::of(&runs, limit);
@@ -56,7 +56,7 @@ const WORDS: &str = "<p>A <em>node</em> is a processor of the machine. It holds 
     leaves the box is sent to the neighbouring environments in messages; there each <em>received shot</em> continues \
     it.</p>\n";
 
-/// Of each group the answers for its run on the most processors, and the table of its losses.
+/// For each group, the answers for its run on the most processors, and the table of its losses.
 fn all_answers(runs: &[AnalysedRun]) -> String {
     let mut text = WORDS.to_owned();
     for group in groups(runs) {

@@ -6,10 +6,10 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use super::waiters::Waiters;
 
-/// Work that affects no result, only how soon one is there.
+/// Work that changes no result, only how soon it is available.
 type Job = Box<dyn FnOnce() + Send>;
 
-/// The most jobs that wait at a time, of some 4 KB each.
+/// Largest number of waiting jobs, of about 4 KB each.
 const MOST_JOBS: usize = 1_024;
 
 /// A group of threads. Each does its own work first, then helps the others until all are done.
@@ -47,7 +47,7 @@ impl Helpers {
         while let Some(job) = self.wait() {
             job();
         }
-        // Jobs that are left hold references to what they were to work on.
+        // Jobs that were not done hold references to their data.
         let rest = mem::take(&mut self.held().jobs);
         drop(rest);
         done
@@ -87,7 +87,7 @@ impl Helpers {
     }
 }
 
-/// A thread at its own work, which also ends by a panic.
+/// Marks a thread as doing its own work, until dropped, also by a panic.
 struct Working<'a>(&'a Helpers);
 
 impl Drop for Working<'_> {

@@ -1,4 +1,4 @@
-//! The shots of one run, and those that it will ask for.
+//! Gets the shots of one run, and has shots that it will need cast ahead of time.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -14,7 +14,7 @@ pub(crate) struct LookAhead {
     problem: Arc<Problem>,
     shooting: Shooting,
     kept: Arc<KeptShots>,
-    /// Whether the last shot had been asked for before; then so are, as a rule, those that follow.
+    /// Whether the last shot had been requested before. Then the following ones usually have been, too.
     known: AtomicBool,
 }
 
@@ -46,7 +46,7 @@ impl LookAhead {
     /// A source will be shot: have it cast ahead, and those that it leads to as well. Where its rays end does
     /// not depend on what happens meanwhile.
     pub fn foresee(self: &Arc<Self>, source: Cow<'_, Source>) {
-        // Most are known: those are not copied.
+        // Most sources are known already. They are not copied.
         if !self.wants_jobs() || !self.kept.foresee(&source) {
             return;
         }

@@ -1,5 +1,5 @@
-//! A shot as bytes, for memory and files. Of a mask only the words that hold a true pixel are written, with
-//! their places: most masks are few pixels close together.
+//! Encodes a shot as bytes, for memory and files. Of a mask only the words with a true pixel are written,
+//! with their positions, since most masks consist of a few pixels close together.
 
 use radiosity::{DepthBits, LocalEnvironment, Mask, Operation, Outgoing, Shot, Side, Work};
 
@@ -30,6 +30,7 @@ pub(crate) fn encode(shot: &Shot) -> Vec<u8> {
     to
 }
 
+/// For every 64 words of a mask: 64 bits that tell which words are not zero, then these words.
 fn encode_words(words: &[u64], to: &mut Vec<u8>) {
     for block in words.chunks(64) {
         let held = block.iter().zip(0..).map(|(&word, i)| u64::from(word != 0) << i);
@@ -38,7 +39,7 @@ fn encode_words(words: &[u64], to: &mut Vec<u8>) {
     }
 }
 
-/// The shot that bytes stand for, if this environment can have such a shot with masks of `pixels` pixels.
+/// Decodes a shot. Refuses bytes that cannot be a shot in this environment with masks of `pixels` pixels.
 pub(crate) fn decode(
     code: &[u8],
     environment: &LocalEnvironment,

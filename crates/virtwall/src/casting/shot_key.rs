@@ -42,7 +42,7 @@ impl ShotKey {
         bytes
     }
 
-    /// The key that bytes stand for.
+    /// Decodes a key.
     pub fn from_bytes(bytes: &[u8; ShotKey::BYTES]) -> ShotKey {
         let number = |at: usize| u32::from_le_bytes(std::array::from_fn(|i| bytes[at + i]));
         ShotKey {

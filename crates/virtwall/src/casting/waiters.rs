@@ -11,8 +11,8 @@ pub(super) struct Waiters {
 }
 
 impl Waiters {
-    /// Wait until the guarded state may have changed. A thread that changes it notifies after that: the
-    /// mutex makes sure that it sees this thread in the count, or this thread its change.
+    /// Wait until the guarded state may have changed. A thread changes the state under the mutex and then
+    /// notifies. So either it sees this thread in the count, or this thread has seen the change.
     pub fn wait<'a, T>(&self, held: MutexGuard<'a, T>) -> MutexGuard<'a, T> {
         self.waiting.fetch_add(1, Ordering::Relaxed);
         let held = self.changed.wait(held).unwrap_or_else(PoisonError::into_inner);

@@ -1,4 +1,4 @@
-//! The light of a run as it goes on.
+//! Keeps the light of a simulated run up to date while the run is under way.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! The light of a simulated run at given instants, and at given thresholds: the run is made once more.
+//! The light of a simulated run at given instants, and at given thresholds, by running it again.
 
 mod follower;
 mod instants;

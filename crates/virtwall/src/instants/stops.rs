@@ -1,9 +1,9 @@
-//! What a run in one local environment would have ended with at higher thresholds.
+//! The results that a run in one local environment would have had at higher thresholds.
 //!
-//! Patches are shot in the order of their values, so that until the best falls below a threshold a run with a
-//! lower one is the same. Among several environments it is not: a part of a patch that was handed on is worth
-//! less than the patch, so that patches below the threshold may be shot before it, and it may raise others
-//! above.
+//! Patches are shot in the order of their values. So until the best value falls below a threshold, a run with
+//! a lower threshold is the same. With several environments this does not hold: a part of a patch that was sent
+//! to another environment is worth less than the patch. Patches below the threshold may then be shot before it,
+//! and its light may raise others above the threshold.
 
 use std::cell::RefCell;
 use std::rc::Rc;

@@ -6,19 +6,19 @@ use crate::problem::Source;
 
 /// Where the emitted energy is, W.
 ///
-/// A source that has been selected and not been shot yet is in transit, and so is what virtual walls have
-/// gathered.
+/// During a run, the power of a source that is selected and not shot yet is in transit, and so is the power
+/// that virtual walls have gathered. At the end of a run, power that is still on virtual walls is unshot.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EnergyLedger {
     /// Emitted by all patches.
     pub emitted: Rgb,
     /// Absorbed by patches and by backs of polygons.
     pub absorbed: Rgb,
-    /// On patches, and gathered by virtual walls, not shot.
+    /// Not shot: on patches and, at the end of a run, on virtual walls.
     pub unshot: Rgb,
-    /// In sources handed on and not shot yet.
+    /// In sources that are selected or sent, and not shot yet.
     pub in_transit: Rgb,
-    /// Gone out of the scene.
+    /// Left the scene.
     pub escaped: Rgb,
     /// Absorbed by participating media.
     pub medium: Rgb,
@@ -33,7 +33,7 @@ impl EnergyLedger {
     }
 }
 
-/// A part of a whole, colours summed; 0 of nothing.
+/// The ratio of a part to the whole, colours summed; 0 if the whole is 0.
 pub(crate) fn fraction(part: Rgb, whole: Rgb) -> f64 {
     if whole == Rgb::ZERO { 0.0 } else { part.element_sum() / whole.element_sum() }
 }

@@ -12,7 +12,7 @@ pub enum RunError {
     /// No processor, or more than there are environments.
     #[error("{processors} processors; expected 1 to {environments}, one environment each at least")]
     Processors {
-        /// What was asked for.
+        /// Processors that the run asks for.
         processors: usize,
         /// Environments of the problem.
         environments: usize,
@@ -23,14 +23,14 @@ pub enum RunError {
     /// The machine file lacks a number that the programs need.
     #[error("the machine's {part} for \"{name}\"; expected {unit} under that name")]
     Missing {
-        /// What the machine file lacks: "processor has no price".
+        /// Part of the machine file and what it lacks: "processor has no price".
         part: &'static str,
         /// The operation, thing or step that needs it.
         name: &'static str,
-        /// What it is counted in.
+        /// Unit of the missing number.
         unit: &'static str,
     },
-    /// Every process waits and nothing is under way.
+    /// Deadlock: processes wait and no event is left.
     #[error(transparent)]
     Stalled(#[from] Stalled),
     /// A process received bytes that are not a message.

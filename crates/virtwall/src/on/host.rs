@@ -1,4 +1,4 @@
-//! What every back end does besides running the programs: it looks ahead for shots, counts, and encodes.
+//! What all back ends share: casting shots ahead, counting operations and messages, encoding messages.
 
 use std::borrow::Cow;
 use std::cell::Cell;
@@ -12,7 +12,7 @@ use crate::program::{Event, Unreadable};
 use crate::run::Counts;
 use crate::wire::{Message, MessageKind};
 
-/// The host's side of a run.
+/// What the host does with the events of a run: it casts shots ahead and reports progress.
 #[derive(Clone)]
 pub(super) struct Host {
     pub look_ahead: Arc<LookAhead>,
@@ -21,7 +21,7 @@ pub(super) struct Host {
 }
 
 impl Host {
-    /// Something has happened in a program.
+    /// Handles an event of a program.
     pub fn note(&self, event: &Event) {
         match event {
             Event::Brightest(emitter) => self.look_ahead.foresee_patch(emitter),
@@ -40,12 +40,12 @@ pub(super) struct Meter {
 }
 
 impl Meter {
-    /// The process has carried out a step.
+    /// Adds the operations of a step.
     pub fn work(&self, work: Work) {
         self.work.set(self.work.get() + work);
     }
 
-    /// The bytes of a message that the process sends.
+    /// Encodes a message that the process sends, and counts it.
     pub fn encode(&self, message: &Message) -> Vec<u8> {
         let bytes = message.encode();
         let (mut counts, length) = (self.counts.get(), bytes.len() as u64);
@@ -64,13 +64,13 @@ impl Meter {
         bytes
     }
 
-    /// What was counted.
+    /// The counts so far.
     pub fn read(&self) -> (Counts, Work) {
         (self.counts.get(), self.work.get())
     }
 }
 
-/// The sum of what processes counted.
+/// The sum of the counts of all processes.
 pub(super) fn total(meters: impl IntoIterator<Item = (Counts, Work)>) -> (Counts, Work) {
     meters.into_iter().fold((Counts::default(), Work::NONE), |mut all, (counts, work)| {
         all.0 += counts;
@@ -79,7 +79,7 @@ pub(super) fn total(meters: impl IntoIterator<Item = (Counts, Work)>) -> (Counts
     })
 }
 
-/// The message that bytes stand for.
+/// Decodes a message. An error names its sender and receiver.
 pub(super) fn decode(to: Rank, from: Rank, bytes: &[u8]) -> Result<(Rank, Message), Unreadable> {
     let message = Message::decode(bytes).map_err(|error| Unreadable { from, to, error })?;
     Ok((from, message))

@@ -1,4 +1,4 @@
-//! The ambient term: what unshot light would have added, had it been spread evenly over all surfaces.
+//! The ambient term: what the unshot light would add if it were spread evenly over all surfaces.
 
 use radiosity::Rgb;
 
@@ -6,7 +6,7 @@ use super::problem::Problem;
 
 impl Problem {
     /// Radiosity in W/m² that `unshot` power (W) would give a white surface: it falls evenly on all
-    /// surfaces, and what they reflect of it does so again and again.
+    /// surfaces, and so does every reflection of it.
     ///
     /// Source: Cohen, Chen, Wallace and Greenberg, "A progressive refinement approach to fast radiosity
     /// image generation", 1988.

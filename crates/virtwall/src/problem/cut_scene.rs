@@ -29,12 +29,12 @@ pub enum ProblemError {
     /// No cell, or far too many.
     #[error("a grid of {0:?} cells; expected 1 to {MOST_CELLS} cells in all")]
     Cells([u32; 3]),
-    /// Cut planes must lie on the grid.
+    /// No environment along an axis, or more than cells: cut planes must be planes of the grid.
     #[error("a cut into {cut:?} environments; expected 1 to {cells:?}, the cells of the grid")]
     Cut {
-        /// What was asked for.
+        /// Environments asked for, along each axis.
         cut: [u32; 3],
-        /// What there is.
+        /// Cells of the grid, along each axis.
         cells: [u32; 3],
     },
     /// A size that no quad-tree can reach.

@@ -8,9 +8,9 @@ use radiosity::{Hemisphere, Mask, Rgb};
 /// Hemispheres smaller than the problem's own, and the power that their rays may carry.
 #[derive(Default)]
 pub(super) struct SmallerHemispheres {
-    /// By rising size.
+    /// The hemispheres, by rising size.
     hemispheres: Vec<Hemisphere>,
-    /// What a ray of the brightest patch carries when it is first shot, W.
+    /// Power of a ray of the brightest patch when that is first shot, W.
     ray_power: f64,
 }
 
@@ -38,7 +38,7 @@ impl SmallerHemispheres {
         self.hemispheres.iter().find(|one| one.pixels() == mask.pixels())
     }
 
-    /// All of them, the largest first.
+    /// All hemispheres, the largest first.
     pub fn all(&self) -> impl Iterator<Item = &Hemisphere> {
         self.hemispheres.iter().rev()
     }

@@ -20,7 +20,7 @@ pub struct Problem {
     pub environments: Vec<LocalEnvironment>,
     /// The hemisphere over every source.
     pub hemisphere: Hemisphere,
-    /// Those over dimmer sources.
+    /// Hemispheres over dimmer sources.
     pub(super) smaller_hemispheres: SmallerHemispheres,
     /// Where a pilot run made the mesh finer, if there was one.
     pub refinement: Option<Refinement>,
@@ -31,17 +31,17 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// The same with virtual walls in place of masks.
+    /// The same problem with virtual walls in place of masks.
     pub fn with_walls(self, walls: VirtualWalls) -> Problem {
         Problem { walls: Some(walls), ..self }
     }
 
-    /// The same with integers of another size in masks, where there are media.
+    /// The same problem with integers of another size in the masks of a scene with media.
     pub fn with_depth_bits(self, depth_bits: DepthBits) -> Problem {
         Problem { depth_bits, ..self }
     }
 
-    /// The same with these hemispheres over dimmer sources, each smaller than its own.
+    /// The same problem with these hemispheres over dimmer sources, each smaller than the problem's own.
     pub fn with_smaller_hemispheres(self, smaller: Vec<Hemisphere>) -> Problem {
         let brightest = self.brightest(|power, _| power.element_sum());
         let ray_power = brightest / f64::from(self.hemisphere.pixels());

@@ -16,7 +16,7 @@ pub struct Source {
 }
 
 impl Source {
-    /// Whether the emitter lies in the environment that the source is for. A source that has left an
+    /// Whether the emitter is in the environment that the source is for. A source that has left an
     /// environment never comes back: environments are boxes, and rays are straight.
     pub fn is_local(&self) -> bool {
         self.environment == self.emitter.environment

@@ -28,7 +28,7 @@ pub struct ComputeNode {
     turn: u32,
     pub(super) walls: Walls,
     pub(super) termination: Box<dyn Termination>,
-    /// Until the service node says to stop selecting local patches.
+    /// True until the service node says to stop selecting local patches.
     pub(super) selecting: bool,
     done: bool,
     shots: Shots,
@@ -144,7 +144,7 @@ impl ComputeNode {
                 Message::StopSelecting => self.selecting = false,
                 Message::Token(value) => self.termination.token_arrived(value),
                 Message::Done => self.done = true,
-                // For the service node.
+                // Messages for the service node.
                 Message::Update(_) | Message::Sums(_) => {}
             }
         }
@@ -209,8 +209,8 @@ impl ComputeNode {
         if self.selecting { self.region.searched() } else { none }
     }
 
-    /// The environment to choose from, where they are processed one after the other (§5.2): stay until
-    /// nothing is left there to shoot, then go on to the next that has something.
+    /// The environment to choose from, if environments are processed one after the other (§5.2): the same one
+    /// until nothing is left there to shoot, then the next that has a source.
     fn environment_in_turn(&mut self) -> Option<u32> {
         if self.shared.rules.order == Order::Best {
             return None;
@@ -257,7 +257,7 @@ impl ComputeNode {
         }
     }
 
-    /// A source leaves for its environment.
+    /// Count and report a source that leaves for its environment.
     pub(super) fn hand_on(&mut self, process: &impl Process, source: &Source) {
         process.note(Event::HandedOn(source));
         self.transit.sent.0 += 1;

@@ -1,4 +1,4 @@
-//! What a program may do on its node, whatever the machine.
+//! The interface between the programs and a back end: what a program may do on its node.
 
 use std::collections::BTreeSet;
 
@@ -32,10 +32,11 @@ pub trait Process {
     /// If one of them cannot be read.
     async fn receive(&self) -> Result<Vec<(Rank, Message)>, Unreadable>;
 
-    /// Idle until a message has arrived that was not received, or until a time; whether one has arrived.
+    /// Idle until a message has arrived that was not received, or until a time. Returns whether a message has
+    /// arrived.
     async fn wait(&self, until: Option<Time>) -> bool;
 
-    /// Something has happened in the program. Nothing depends on the answer: there is none.
+    /// Report an event of the program. It has no answer, so the program cannot depend on it.
     fn note(&self, _event: Event<'_>) {}
 }
 

@@ -14,9 +14,10 @@ pub struct Queue {
     selection: Selection,
     merge_masks: bool,
     waiting: BTreeMap<Turn, Source>,
-    /// By environment: values, as bits, with turns; the last is the greatest, of equals the first to arrive.
+    /// By environment: values, as bits, with turns, in rising order. Of equal values the first to arrive is
+    /// last.
     by_value: BTreeMap<u32, BTreeSet<(u64, Reverse<Turn>)>>,
-    /// By environment and emitter: who may be merged with what arrives.
+    /// By environment and emitter: the source with which one that arrives may be merged.
     by_emitter: BTreeMap<(u32, u32, u32), Vec<Turn>>,
     turns: Turn,
 }
@@ -44,8 +45,8 @@ impl Queue {
         self.waiting.keys().copied()
     }
 
-    /// Put a source in; none if it was merged with one that waits, else its turn. What comes through a wall
-    /// patch is always merged with what waits of the same bin.
+    /// Put a source in. Returns its turn, or `None` if it was merged with a source that waits. Sources from a
+    /// wall patch are always merged with those of the same bin.
     pub fn push(&mut self, source: Source) -> Option<Turn> {
         let emitter = emitter_of(&source);
         let waiting = self.by_emitter.get(&emitter).into_iter().flatten();
@@ -88,8 +89,8 @@ impl Queue {
         &self.waiting[&turn]
     }
 
-    /// The greatest value that waits, or waits for one environment, with its turn; of equals the first to
-    /// arrive.
+    /// The greatest value that waits, for any environment or for one, with its turn. Of equal values, the first
+    /// to arrive.
     ///
     /// Choice C13: a received source is worth its emitter's whole energy, however few pixels are left:
     /// that is what the message states.

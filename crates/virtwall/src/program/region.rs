@@ -17,7 +17,7 @@ pub(super) struct Region {
     shooting: Shooting,
     /// Local patches below this value are not selected.
     threshold: f64,
-    /// By rising number.
+    /// The environments, by rising number.
     environments: Vec<Environment>,
     /// The value of the best patch of each environment.
     bests: Greatest,
@@ -98,8 +98,8 @@ impl Region {
         found.expect("sources are sent to the owner of their environment")
     }
 
-    /// The local patch, or that of one environment, with the greatest value at or above the threshold; of
-    /// equals the lowest number.
+    /// The local patch with the greatest value at or above the threshold, of all environments or of one. Of
+    /// equal patches, that with the lowest number.
     pub fn best_patch(&self, only: Option<u32>) -> Option<BestPatch> {
         let place = match only {
             Some(only) => self.place(only),
@@ -131,12 +131,12 @@ impl Region {
         work
     }
 
-    /// The search is done: the environments that it looked at.
+    /// Mark the search as done; returns the environments that it looked at.
     pub fn searched(&mut self) -> BTreeSet<u32> {
         std::mem::take(&mut self.changed)
     }
 
-    /// The best patch of each of these environments that has another one than before.
+    /// The best patch of each of these environments in which it has changed.
     pub fn new_bests(&mut self, environments: &BTreeSet<u32>) -> Vec<Emitter> {
         let mut bests = Vec::new();
         for &number in environments.union(&self.changed.clone()) {
@@ -156,7 +156,7 @@ impl Region {
         let emitter = self.emitter(place, patch);
         let geometry = &self.problem.environments[emitter.environment as usize];
         let share = self.shooting.share(geometry.emitted_power(&self.problem.space, patch));
-        // Less than nothing is left of a patch that is over-shot.
+        // The unshot power of a patch becomes negative by over-shooting.
         self.environments[place].light.unshot[patch as usize] *= 1.0 - share;
         self.revalue(place, [patch].into_iter());
         self.problem.sources_of(emitter, &self.shooting)
@@ -191,7 +191,7 @@ impl Region {
         reflected
     }
 
-    /// By how much the radiosity of each patch that a shot hit has grown.
+    /// The increase of radiosity of each patch that a shot hit.
     pub fn updates(&self, source: &Source, shot: &Shot) -> Vec<PatchUpdate> {
         let (environment, arriving) = (source.environment, source.emitter.power);
         let geometry = &self.problem.environments[environment as usize];

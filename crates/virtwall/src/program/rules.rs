@@ -1,4 +1,4 @@
-//! What RR-3008 leaves open in its programs.
+//! The rules of a run: settings that RR-3008 leaves open in its programs.
 
 use desim::Duration;
 use radiosity::{Emitter, Rgb};

@@ -22,7 +22,7 @@ pub trait Display {
     /// Put an update into the queue for the display.
     fn queue(&self, update: &Message);
 
-    /// Whether more updates are wanted in the queue before the next one is sent.
+    /// Whether the queue should get more updates before the next one is sent.
     fn wants_more(&self) -> bool;
 
     /// Send the next update of the queue; false if there is none.
@@ -73,11 +73,11 @@ pub async fn service_node(
     }
 }
 
-/// The service node and what compute nodes have told it.
+/// The service node, and what compute nodes have reported to it.
 struct ServiceNode<'a, P, D> {
     process: &'a P,
     display: &'a D,
-    /// By rank.
+    /// Sums of the compute nodes, by rank.
     sums: Vec<Option<Sums>>,
     /// Compute nodes that have not answered yet.
     missing: usize,
@@ -130,7 +130,7 @@ impl<P: Process, D: Display> ServiceNode<'_, P, D> {
                 }
                 Message::Update(_) => self.display.queue(&message),
                 Message::Done => self.done = true,
-                // For compute nodes.
+                // Messages for compute nodes.
                 _ => {}
             }
         }

@@ -1,4 +1,4 @@
-//! The way of updates to the display: Figure 6 of RR-3008, from the service node on.
+//! A report on the display: updates shown and dropped, waiting times (Figure 6 of RR-3008).
 
 use desim::{Duration, Time};
 use multicomputer::{DisplayAccount, NodeAccount};

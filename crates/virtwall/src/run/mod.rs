@@ -1,4 +1,4 @@
-//! What is to be run, and what came out of it.
+//! What to run, and its outcome.
 
 mod counts;
 mod display_report;

@@ -1,4 +1,4 @@
-//! What is to be run: a problem, on a number of processors, under rules.
+//! A run: a problem, the number of processors, and the rules.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! The energy that the virtual walls of an environment have gathered and not handed on.
+//! The energy that the virtual walls of an environment have gathered and not sent yet.
 
 use std::collections::BTreeMap;
 

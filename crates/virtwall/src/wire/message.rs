@@ -87,7 +87,7 @@ impl Message {
         to
     }
 
-    /// The message that bytes stand for.
+    /// Decodes a message.
     pub fn decode(bytes: &[u8]) -> Result<Message, DecodeError> {
         let mut from = Reader(bytes);
         let message = match from.byte()? {

@@ -48,7 +48,7 @@ fn encode_words(words: &[u64], to: &mut Vec<u8>) {
     }
 }
 
-/// The source that bytes stand for; its mask takes all that are left.
+/// Decodes a source. Its mask takes all bytes that are left.
 pub(super) fn decode(from: &mut Reader) -> Result<Source, DecodeError> {
     let (environment, emitter_environment) = (from.u32()?, from.u32()?);
     let (patch, polygon, pixels) = (from.u32()?, from.u32()?, from.u32()?);

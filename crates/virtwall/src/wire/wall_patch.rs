@@ -19,7 +19,7 @@ pub(super) fn encode(wall_patch: &WallPatch, to: &mut Vec<u8>) {
     held.flatten().for_each(|x| to.extend(x.to_le_bytes()));
 }
 
-/// The wall patch that bytes stand for.
+/// Decodes a wall patch.
 pub(super) fn decode(from: &mut Reader) -> Result<WallPatch, DecodeError> {
     let (environment, side, patch) = (from.u32()?, from.byte()?, from.u32()?);
     let bins = usize::from(from.u16()?);

@@ -1,14 +1,14 @@
-//! The programs on a simulated machine: what their steps, messages and memory cost.
+//! The back end that runs the programs on a simulated machine, in virtual time.
 
-mod footprint;
-mod interpreter;
-mod layout;
-mod prices;
-mod process;
-mod simulation;
-mod start_up;
-mod start_up_step;
-mod storage;
+mod footprint; // what a program keeps in its node's memory
+mod interpreter; // events of the machine as events of the algorithm
+mod layout; // sizes of the records that kernels touch
+mod prices; // time of the counted operations
+mod process; // `Process` on a simulated node
+mod simulation; // a whole run
+mod start_up; // time of the initialisation (§4.2.1)
+mod start_up_step; // the steps of the initialisation
+mod storage; // addresses of records, and the caches (§5.2)
 
 pub use footprint::Thing;
 pub use layout::Layout;

@@ -1,4 +1,4 @@
-//! Runs on a simulated machine.
+//! Runs the programs on a simulated machine: one process for each node.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -23,7 +23,7 @@ use crate::problem::Rank;
 use crate::program::{NodeResult, Process, Unreadable, compute_node, service_node};
 use crate::run::{DisplayReport, NodeReport, Outcome, Run};
 
-/// Run on a simulated machine.
+/// Carries out a run on a simulated machine.
 ///
 /// # Errors
 /// Why the run could not be made, or did not end.
@@ -31,7 +31,7 @@ pub fn simulate(run: &Run, machine: &Machine) -> Result<Outcome, RunError> {
     simulate_over(run, machine, machine.network())
 }
 
-/// Run on a simulated machine with another network than its own.
+/// Carries out a run on a simulated machine, with `network` in place of the machine's own.
 ///
 /// # Errors
 /// Why the run could not be made, or did not end.
@@ -43,7 +43,7 @@ pub fn simulate_over(
     simulate_observed(run, machine, network, None)
 }
 
-/// The same, with an observer.
+/// Like [`simulate_over`], with an observer of the run.
 ///
 /// # Errors
 /// Why the run could not be made, or did not end.
@@ -103,7 +103,8 @@ pub fn simulate_observed(
         service.node.finish();
     });
     let ended = simulation.run();
-    // The others wait for a process that could not read a message: that is why the run has stalled.
+    // If a process could not read a message, the others wait for it and the run stalls. So that error is
+    // reported first.
     let failed: Option<Unreadable> = unreadable.take();
     failed.map_or(Ok(()), Err)?;
     ended?;
@@ -114,8 +115,8 @@ pub fn simulate_observed(
     Ok(Outcome { display, ..outcome })
 }
 
-/// The records that kernels touch, before the machine's caches, if it has any. A node's life begins with
-/// empty caches.
+/// Addresses of the records that kernels touch, and the machine's caches, if it has any. Each node starts
+/// with empty caches.
 fn storage(run: &Run, machine: &Machine) -> Option<RefCell<Storage>> {
     let levels = Some(&machine.processor.caches).filter(|caches| !caches.is_empty())?;
     let caches = Caches::new(levels, machine.processor.translations.as_ref());
@@ -126,6 +127,7 @@ fn storage(run: &Run, machine: &Machine) -> Option<RefCell<Storage>> {
 struct Finished {
     at: Time,
     result: NodeResult,
+    /// Time of cache misses, and of address translations.
     missing: [Duration; 2],
     counted: (crate::run::Counts, radiosity::Work),
 }

@@ -10,11 +10,11 @@ use crate::run::Run;
 /// The start-up of the last compute node to become ready.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StartUpReport {
-    /// From the start until it was ready.
+    /// Time from the start until it was ready.
     pub time: Duration,
-    /// Of that, until it had read the scene.
+    /// Part of `time` until it had read the scene.
     pub reading: Duration,
-    /// Of that, how long it waited at I/O nodes for requests of other nodes.
+    /// Part of `reading` in which it waited at I/O nodes for requests of other nodes.
     pub disk_wait: Duration,
 }
 

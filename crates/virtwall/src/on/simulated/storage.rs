@@ -25,7 +25,7 @@ pub struct Storage {
     masks_used: u64,
     /// The planes of the grid across each axis.
     crossings: [u64; 3],
-    /// Of each cell, by its place in the grid: its address and that of its list.
+    /// Address of each cell and of its list, by the cell's place in the grid.
     cells: Vec<[u64; 2]>,
     polygons: Vec<Polygons>,
     /// Numbers of polygons, slots and patches of each environment.

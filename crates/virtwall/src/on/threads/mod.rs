@@ -17,8 +17,8 @@ use super::prepared::Prepared;
 use crate::program::{NoDisplay, Unreadable, compute_node, service_node};
 use crate::run::{NodeReport, Outcome, Run};
 
-/// Run on threads of this host, one for each processor and one for the service node. The time of the
-/// outcome is the host's; the light is the simulation's but for the order of messages.
+/// Carries out a run on threads of this host, one for each processor and one for the service node. The time
+/// of the outcome is host time. The light is that of the simulation, except for effects of message order.
 ///
 /// # Errors
 /// Why the run could not be made, or did not end.

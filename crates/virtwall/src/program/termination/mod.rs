@@ -1,4 +1,4 @@
-//! Termination detection (§4.2.4, second step): one protocol a file.
+//! Termination detection (§4.2.4, second step): one file for each protocol.
 
 mod protocol;
 mod token_ring;

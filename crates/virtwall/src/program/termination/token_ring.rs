@@ -3,7 +3,7 @@
 use super::protocol::{Action, Termination};
 use crate::problem::Rank;
 
-/// One compute node's part in the ring.
+/// The protocol's state on one compute node.
 ///
 /// "A token, whose value is initially true, is sent through the ring. If a compute node has sent a
 /// patch to another node in the ring since the last visit, the value of the token is changed to
@@ -15,7 +15,7 @@ pub(super) struct TokenRing {
     nodes: usize,
     /// Whether this node has sent a source since the token's last visit.
     has_sent: bool,
-    /// The token, while it is here.
+    /// Value of the token, while this node holds it.
     token: Option<bool>,
 }
 
@@ -57,7 +57,7 @@ impl Termination for TokenRing {
 mod tests {
     use super::*;
 
-    /// The rounds that the token takes among three idle nodes; `sender` has sent a source before.
+    /// The number of rounds of the token among three idle nodes; `sender` has sent a source before.
     fn rounds(sender: Option<Rank>) -> usize {
         let mut nodes: Vec<TokenRing> = (0..3).map(|rank| TokenRing::new(rank, 3)).collect();
         if let Some(rank) = sender {
