@@ -30,7 +30,7 @@ pub struct Arguments {
     #[arg(long, value_name = "PATH=VALUE")]
     set: Vec<String>,
     /// Network model: ideal, loggp, wormhole, flit, or auto for the cheapest that is accurate enough;
-    /// short for --set network=MODEL
+    /// short for --set machine.network.model=MODEL
     #[arg(long, value_name = "MODEL")]
     network: Option<String>,
     /// Where the parallel program runs

@@ -1,10 +1,11 @@
 //! Calls the simulator. No other folder of this crate does.
 
 use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use config::{Fault, Place};
+use config::{Fault, Place, unknown};
 use desim::Time;
 use multicomputer::Machine;
 use radiosity::{Operation, Rgb};
@@ -39,26 +40,41 @@ pub fn operations() -> impl Iterator<Item = &'static str> {
     Operation::ALL.iter().map(|operation| operation.name())
 }
 
-/// Checks that a machine has a price for every operation; and, if it models them, a size for everything in
-/// a node's memory and a price for every step of the start-up.
+/// Checks that a machine has a price for every operation and, if it models them, a size for everything in a
+/// node's memory and a price for every step of the start-up; and none for anything else.
 ///
 /// # Errors
-/// What is missing, and where. The caller adds the name of the file.
+/// What is missing or unknown, and where. The caller adds the name of the file.
 pub fn check_machine(machine: &Machine) -> Result<(), Fault> {
-    let processor = &machine.processor;
-    let priced = |operation: &&Operation| processor.price(operation.name()).is_some();
-    let operation = Operation::ALL.iter().find(|operation| !priced(operation));
-    let thing = machine.node_memory.as_ref().and_then(Thing::without_size);
-    let step = machine.start_up.as_ref().and_then(StartUpStep::without_price);
-    let missing = [
-        operation.map(|operation| ("processor.operations", "price", operation.name())),
-        thing.map(|thing| ("node_memory.sizes", "size", thing.name())),
-        step.map(|step| ("start_up.operations", "price", step.name())),
-    ];
-    match missing.into_iter().flatten().next() {
+    let operations = Operation::ALL.iter().map(|operation| operation.name());
+    all_of("operations", "processor.operations", operations, &machine.processor.cycles)?;
+    if let Some(memory) = &machine.node_memory {
+        let things = Thing::ALL.iter().map(|thing| thing.name());
+        all_of("sizes", "node_memory.sizes", things, &memory.sizes)?;
+    }
+    if let Some(start_up) = &machine.start_up {
+        let steps = StartUpStep::ALL.iter().map(|step| step.name());
+        all_of("operations", "start_up.operations", steps, &start_up.cycles)?;
+    }
+    Ok(())
+}
+
+/// Checks that a map at `place` of a machine has exactly these names.
+fn all_of<V>(
+    what: &str,
+    place: &str,
+    names: impl Iterator<Item = &'static str>,
+    map: &BTreeMap<String, V>,
+) -> Result<(), Fault> {
+    let names: Vec<String> = names.map(str::to_owned).collect();
+    if let Some(name) = map.keys().find(|name| !names.contains(name)) {
+        let message = unknown("field", name, &names);
+        return Err(Fault::at(Place::of(place).key(name), message));
+    }
+    match names.iter().find(|name| !map.contains_key(*name)) {
         None => Ok(()),
-        Some((place, what, name)) => {
-            let message = format!("no {what} of \"{name}\"; expected one of each");
+        Some(name) => {
+            let message = format!("\"{name}\" is missing; expected {what}: {}", names.join(", "));
             Err(Fault::at(Place::of(place), message))
         }
     }

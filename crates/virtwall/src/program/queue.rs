@@ -69,10 +69,16 @@ impl Queue {
         }
     }
 
+    fn may_merge(&self, source: &Source) -> bool {
+        self.merge_masks || source.emitter.is_of_a_wall()
+    }
+
     fn insert(&mut self, turn: Turn, source: Source) {
         let place = self.place(turn, &source);
         self.by_value.entry(source.environment).or_default().insert(place);
-        self.by_emitter.entry(emitter_of(&source)).or_default().push(turn);
+        if self.may_merge(&source) {
+            self.by_emitter.entry(emitter_of(&source)).or_default().push(turn);
+        }
         self.waiting.insert(turn, source);
     }
 
@@ -114,10 +120,12 @@ impl Queue {
             values.remove(&place);
             values.is_empty()
         });
-        remove(&mut self.by_emitter, &emitter_of(&source), |turns| {
-            turns.retain(|&other| other != turn);
-            turns.is_empty()
-        });
+        if self.may_merge(&source) {
+            remove(&mut self.by_emitter, &emitter_of(&source), |turns| {
+                turns.retain(|&other| other != turn);
+                turns.is_empty()
+            });
+        }
         source
     }
 }

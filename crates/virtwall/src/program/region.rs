@@ -46,7 +46,19 @@ pub(super) struct BestPatch {
     patch: u32,
 }
 
+/// The place of an environment among these, of which it must be one.
+fn place(environments: &[Environment], number: u32) -> usize {
+    let found = environments.binary_search_by_key(&number, |one| one.number);
+    found.expect("sources are sent to the owner of their environment")
+}
+
 impl Environment {
+    /// A patch with its unshot power.
+    fn emitter(&self, problem: &Problem, patch: u32) -> Emitter {
+        let geometry = &problem.environments[self.number as usize];
+        self.light.emitter(&problem.space, geometry, self.number, patch)
+    }
+
     fn best_value(&self) -> f64 {
         self.values.best().map_or(0.0, |(value, _)| value)
     }
@@ -92,17 +104,11 @@ impl Region {
         self.environments.iter().map(|environment| environment.number)
     }
 
-    /// The place of an environment, which must be one of these.
-    fn place(&self, number: u32) -> usize {
-        let found = self.environments.binary_search_by_key(&number, |one| one.number);
-        found.expect("sources are sent to the owner of their environment")
-    }
-
     /// The local patch with the greatest value at or above the threshold, of all environments or of one. Of
     /// equal patches, that with the lowest number.
     pub fn best_patch(&self, only: Option<u32>) -> Option<BestPatch> {
         let place = match only {
-            Some(only) => self.place(only),
+            Some(only) => place(&self.environments, only),
             None => self.bests.best()?.1 as usize,
         };
         let (value, patch) = self.environments[place].values.best()?;
@@ -125,7 +131,7 @@ impl Region {
         let mut work = Work::NONE;
         work.count(Operation::PatchScan, self.environments.len() as u64);
         for &number in &self.changed {
-            let patches = self.environments[self.place(number)].light.unshot.len();
+            let patches = self.environments[place(&self.environments, number)].light.unshot.len();
             work.count(Operation::PatchScan, patches as u64);
         }
         work
@@ -138,35 +144,28 @@ impl Region {
 
     /// The best patch of each of these environments in which it has changed.
     pub fn new_bests(&mut self, environments: &BTreeSet<u32>) -> Vec<Emitter> {
-        let mut bests = Vec::new();
-        for &number in environments.union(&self.changed.clone()) {
-            let place = self.place(number);
-            let environment = &mut self.environments[place];
-            let best = environment.values.best().filter(|&(value, _)| value >= self.threshold);
+        let Region { problem, threshold, environments: own, changed, .. } = self;
+        let new_best = |&number: &u32| {
+            let place = place(own, number);
+            let environment = &mut own[place];
+            let best = environment.values.best().filter(|(value, _)| value >= threshold);
             let best = best.map(|(_, patch)| patch);
             let known = std::mem::replace(&mut environment.best, best);
-            bests.extend(best.filter(|_| known != best).map(|patch| self.emitter(place, patch)));
-        }
-        bests
+            best.filter(|_| known != best).map(|patch| environment.emitter(problem, patch))
+        };
+        environments.union(changed).filter_map(new_best).collect()
     }
 
     /// Take the unshot power of a patch as a source, or as several (Figure 2).
     pub fn take(&mut self, best: BestPatch) -> Vec<Source> {
         let BestPatch { place, patch, .. } = best;
-        let emitter = self.emitter(place, patch);
+        let emitter = self.environments[place].emitter(&self.problem, patch);
         let geometry = &self.problem.environments[emitter.environment as usize];
         let share = self.shooting.share(geometry.emitted_power(&self.problem.space, patch));
         // The unshot power of a patch becomes negative by over-shooting.
         self.environments[place].light.unshot[patch as usize] *= 1.0 - share;
         self.revalue(place, [patch].into_iter());
         self.problem.sources_of(emitter, &self.shooting)
-    }
-
-    /// A patch with its unshot power.
-    fn emitter(&self, place: usize, patch: u32) -> Emitter {
-        let Environment { number, light, .. } = &self.environments[place];
-        let geometry = &self.problem.environments[*number as usize];
-        light.emitter(&self.problem.space, geometry, *number, patch)
     }
 
     /// The unshot power of these patches has changed.
@@ -185,7 +184,7 @@ impl Region {
     /// Update the radiosities of the environment in which a source was shot (§4.2.3). Returns the power that
     /// its patches reflect of it, W.
     pub fn receive(&mut self, source: &Source, shot: &Shot) -> Rgb {
-        let place = self.place(source.environment);
+        let place = place(&self.environments, source.environment);
         let reflected = self.environments[place].light.receive(&source.emitter, shot);
         self.revalue(place, shot.hits.iter().map(|&(patch, _)| patch));
         reflected
