@@ -1,5 +1,7 @@
 //! Why a run could not be made, or did not end.
 
+use std::collections::BTreeMap;
+
 use desim::Stalled;
 use multicomputer::MachineError;
 use thiserror::Error;
@@ -39,4 +41,19 @@ pub enum RunError {
     /// A thread of a run on threads panicked.
     #[error("a compute node's thread failed")]
     Thread,
+}
+
+impl RunError {
+    /// Refuses a part of a machine whose `map` lacks one of these names.
+    pub(super) fn require_all<V, const N: usize>(
+        part: &'static str,
+        names: [&'static str; N],
+        map: &BTreeMap<String, V>,
+        unit: &'static str,
+    ) -> Result<(), RunError> {
+        match names.into_iter().find(|&name| !map.contains_key(name)) {
+            None => Ok(()),
+            Some(name) => Err(RunError::Missing { part, name, unit }),
+        }
+    }
 }

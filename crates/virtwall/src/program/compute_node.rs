@@ -74,10 +74,10 @@ pub async fn compute_node(
 
 impl ComputeNode {
     /// §4.2.2, patch selection: the source with the most unshot energy, a local patch or one of the queue.
-    async fn choose_best_source(&mut self, process: &impl Process) -> Option<Source> {
+    async fn choose_best_source(&mut self, process: &impl Process) -> Option<Box<Source>> {
         if let Some(part) = self.parts.pop() {
             self.shots.local += 1;
-            return Some(part);
+            return Some(Box::new(part));
         }
         let searched = self.search(process).await;
         let only = self.environment_in_turn();
@@ -114,11 +114,11 @@ impl ComputeNode {
         shot: &Shot,
     ) {
         let problem = Arc::clone(&self.shared.problem);
-        for onward in problem.onward(source, shot) {
+        for onward in problem.onward(source, shot).map(Box::new) {
             self.hand_on(process, &onward);
             match self.shared.owners[onward.environment as usize] {
                 owner if owner == self.rank => self.enqueue(process, onward),
-                owner => self.send_source(process, owner, Message::Source(Box::new(onward))).await,
+                owner => self.send_source(process, owner, Message::Source(onward)).await,
             }
         }
         if problem.walls.is_some() {
@@ -138,7 +138,7 @@ impl ComputeNode {
     async fn read_arrived(&mut self, process: &impl Process) -> Result<(), Unreadable> {
         for (from, message) in process.receive().await? {
             match message {
-                Message::Source(source) => self.enqueue(process, *source),
+                Message::Source(source) => self.enqueue(process, source),
                 Message::WallPatch(wall_patch) => self.enqueue_wall_patch(process, &wall_patch),
                 Message::Collect => process.send(from, Message::Sums(self.sums())).await,
                 Message::StopSelecting => self.selecting = false,
@@ -234,7 +234,7 @@ impl ComputeNode {
         })
     }
 
-    fn take_received(&mut self, process: &impl Process, turn: Turn) -> Source {
+    fn take_received(&mut self, process: &impl Process, turn: Turn) -> Box<Source> {
         let source = self.queue.take(turn);
         process.note(Event::Taken { turn, waiting: self.queue.waiting() });
         self.shots.received += 1;
@@ -243,11 +243,11 @@ impl ComputeNode {
         source
     }
 
-    fn take_local(&mut self, best: BestPatch) -> Option<Source> {
+    fn take_local(&mut self, best: BestPatch) -> Option<Box<Source>> {
         self.shots.local += 1;
         self.parts = self.region.take(best);
         self.parts.reverse();
-        self.parts.pop()
+        self.parts.pop().map(Box::new)
     }
 
     fn note_brightest(&mut self, process: &impl Process, searched: &BTreeSet<u32>) {
@@ -270,7 +270,7 @@ impl ComputeNode {
         process.send(to, message).await;
     }
 
-    pub(super) fn enqueue(&mut self, process: &impl Process, source: Source) {
+    pub(super) fn enqueue(&mut self, process: &impl Process, source: Box<Source>) {
         match self.queue.push(source) {
             Some(turn) => {
                 let (source, waiting) = (self.queue.get(turn), self.queue.waiting());

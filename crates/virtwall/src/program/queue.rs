@@ -13,7 +13,7 @@ pub type Turn = u64;
 pub struct Queue {
     selection: Selection,
     merge_masks: bool,
-    waiting: BTreeMap<Turn, Source>,
+    waiting: BTreeMap<Turn, Box<Source>>,
     /// By environment: values, as bits, with turns, in rising order. Of equal values the first to arrive is
     /// last.
     by_value: BTreeMap<u32, BTreeSet<(u64, Reverse<Turn>)>>,
@@ -47,7 +47,7 @@ impl Queue {
 
     /// Put a source in. Returns its turn, or `None` if it was merged with a source that waits. Sources from a
     /// wall patch are always merged with those of the same bin.
-    pub fn push(&mut self, source: Source) -> Option<Turn> {
+    pub fn push(&mut self, source: Box<Source>) -> Option<Turn> {
         let emitter = emitter_of(&source);
         let waiting = self.by_emitter.get(&emitter).into_iter().flatten();
         let same = waiting.copied().find(|turn| {
@@ -73,7 +73,7 @@ impl Queue {
         self.merge_masks || source.emitter.is_of_a_wall()
     }
 
-    fn insert(&mut self, turn: Turn, source: Source) {
+    fn insert(&mut self, turn: Turn, source: Box<Source>) {
         let place = self.place(turn, &source);
         self.by_value.entry(source.environment).or_default().insert(place);
         if self.may_merge(&source) {
@@ -113,7 +113,7 @@ impl Queue {
     ///
     /// # Panics
     /// If it does not wait.
-    pub fn take(&mut self, turn: Turn) -> Source {
+    pub fn take(&mut self, turn: Turn) -> Box<Source> {
         let source = self.waiting.remove(&turn).expect("the source of this turn waits");
         let place = self.place(turn, &source);
         remove(&mut self.by_value, &source.environment, |values| {
@@ -220,14 +220,14 @@ mod tests {
             let (mut queue, mut list) = (Queue::new(Selection::Energy, merge_masks), List::default());
             for ((environment, patch, power, pixel), take) in steps {
                 let source = source(environment, patch, f64::from(power), pixel);
-                prop_assert_eq!(queue.push(source.clone()), list.push(source, merge_masks));
+                prop_assert_eq!(queue.push(Box::new(source.clone())), list.push(source, merge_masks));
                 // 3 stands for any environment.
                 if let Some(only) = take {
                     let only = Some(only).filter(|&only| only < 3);
                     let best = queue.best(only);
                     prop_assert_eq!(best, list.best(only));
                     if let Some((_, turn)) = best {
-                        prop_assert_eq!(queue.take(turn), list.take(turn));
+                        prop_assert_eq!(*queue.take(turn), list.take(turn));
                     }
                 }
                 let turns: Vec<_> = list.0.iter().map(|(turn, _)| *turn).collect();

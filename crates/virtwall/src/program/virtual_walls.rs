@@ -29,9 +29,7 @@ impl ComputeNode {
             let sources = wall_patch.sources(&self.shared.problem);
             sources.iter().for_each(|source| self.hand_on(process, source));
             match self.shared.owners[wall_patch.environment as usize] {
-                owner if owner == process.rank() => {
-                    sources.into_iter().for_each(|source| self.enqueue(process, source));
-                }
+                owner if owner == process.rank() => self.enqueue_all(process, sources),
                 owner => {
                     self.send_source(process, owner, Message::WallPatch(Box::new(wall_patch)))
                         .await;
@@ -58,7 +56,10 @@ impl ComputeNode {
 
     /// Put the bins of a wall patch into the queue, each a source.
     pub(super) fn enqueue_wall_patch(&mut self, process: &impl Process, wall_patch: &WallPatch) {
-        let sources = wall_patch.sources(&self.shared.problem);
-        sources.into_iter().for_each(|source| self.enqueue(process, source));
+        self.enqueue_all(process, wall_patch.sources(&self.shared.problem));
+    }
+
+    fn enqueue_all(&mut self, process: &impl Process, sources: Vec<Source>) {
+        sources.into_iter().map(Box::new).for_each(|source| self.enqueue(process, source));
     }
 }

@@ -3,7 +3,6 @@
 use multicomputer::{NodeMemory, Segment};
 use radiosity::Side;
 
-use crate::on::error::RunError;
 use crate::problem::{Problem, Source};
 use crate::program::Turn;
 
@@ -53,18 +52,6 @@ impl Thing {
             Thing::Source => "source",
             Thing::MaskWord => "mask_word",
         }
-    }
-
-    /// The first thing that a machine's memory has no size for.
-    pub fn without_size(memory: &NodeMemory) -> Option<Thing> {
-        Thing::ALL.into_iter().find(|thing| !memory.sizes.contains_key(thing.name()))
-    }
-
-    /// Refuses a memory that lacks a size.
-    pub(super) fn all_have_sizes(memory: &NodeMemory) -> Result<(), RunError> {
-        let Some(thing) = Thing::without_size(memory) else { return Ok(()) };
-        let (part, name) = ("memory has no size", thing.name());
-        Err(RunError::Missing { part, name, unit: "bytes" })
     }
 }
 

@@ -8,6 +8,7 @@ use desim::{Duration, Simulation, Time};
 use multicomputer::{
     Caches, Machine, MachineObserver, Multicomputer, Network, NodeAccount, Socket,
 };
+use radiosity::Work;
 
 use super::footprint::Thing;
 use super::interpreter::{Envelope, Interpreter};
@@ -21,7 +22,7 @@ use crate::on::host::{Meter, total};
 use crate::on::prepared::Prepared;
 use crate::problem::Rank;
 use crate::program::{NodeResult, Process, Unreadable, compute_node, service_node};
-use crate::run::{DisplayReport, NodeReport, Outcome, Run};
+use crate::run::{Counts, DisplayReport, NodeReport, Outcome, Run};
 
 /// Carries out a run on a simulated machine.
 ///
@@ -56,17 +57,15 @@ pub fn simulate_observed(
     let Prepared { nodes, collection, host } = Prepared::new(run)?;
     let prices = Rc::new(Prices::of(machine)?);
     let memory = machine.node_memory.as_ref();
-    memory.map_or(Ok(()), Thing::all_have_sizes)?;
+    if let Some(memory) = memory {
+        let things = Thing::ALL.map(Thing::name);
+        RunError::require_all("memory has no size", things, &memory.sizes, "bytes")?;
+    }
     let memory = memory.cloned().map(Rc::new);
     let simulation = Simulation::new();
     let handle = simulation.handle();
     let multicomputer = Multicomputer::with_network(&handle, machine, run.processors, network)?;
-    let interpreter = observer.map(|observer| {
-        let interpreter = Rc::new(RefCell::new(Interpreter::new(observer, run.processors + 1)));
-        let observer: Rc<RefCell<dyn MachineObserver<Envelope>>> = interpreter.clone();
-        multicomputer.observe(&observer);
-        interpreter
-    });
+    let interpreter = observer.map(|observer| interpreter(observer, run, &multicomputer));
     let process = |rank: Rank| SimulatedProcess {
         node: multicomputer.node(rank),
         problem: Arc::clone(&run.problem),
@@ -108,11 +107,23 @@ pub fn simulate_observed(
     let failed: Option<Unreadable> = unreadable.take();
     failed.map_or(Ok(()), Err)?;
     ended?;
-    let outcome = outcome(run, &multicomputer.accounts(), finished.take());
-    let ended = (outcome.time, outcome.counts.update_messages);
     let accounts = multicomputer.accounts();
+    let outcome = outcome(run, &accounts, finished.take());
+    let ended = (outcome.time, outcome.counts.update_messages);
     let display = socket.map(|s| DisplayReport::of(ended, &accounts, &s.account()));
     Ok(Outcome { display, ..outcome })
+}
+
+/// What stands between the machine and an observer of the run.
+fn interpreter(
+    observer: SharedObserver,
+    run: &Run,
+    multicomputer: &Multicomputer<Envelope>,
+) -> Rc<RefCell<Interpreter>> {
+    let interpreter = Rc::new(RefCell::new(Interpreter::new(observer, run.processors + 1)));
+    let observer: Rc<RefCell<dyn MachineObserver<Envelope>>> = interpreter.clone();
+    multicomputer.observe(&observer);
+    interpreter
 }
 
 /// Addresses of the records that kernels touch, and the machine's caches, if it has any. Each node starts
@@ -129,7 +140,7 @@ struct Finished {
     result: NodeResult,
     /// Time of cache misses, and of address translations.
     missing: [Duration; 2],
-    counted: (crate::run::Counts, radiosity::Work),
+    counted: (Counts, Work),
 }
 
 impl Finished {

@@ -33,10 +33,8 @@ pub fn start_up(
     scene_bytes: u64,
 ) -> Result<Option<StartUpReport>, RunError> {
     let Some(model) = &machine.start_up else { return Ok(None) };
-    if let Some(step) = StartUpStep::without_price(model) {
-        let (part, name) = ("start-up has no price", step.name());
-        return Err(RunError::Missing { part, name, unit: "cycles" });
-    }
+    let steps = StartUpStep::ALL.map(StartUpStep::name);
+    RunError::require_all("start-up has no price", steps, &model.cycles, "cycles")?;
     let problem = &run.problem;
     let owners =
         run.rules.mapping.owners(problem.environments.len() as u32, run.processors, run.rules.seed);

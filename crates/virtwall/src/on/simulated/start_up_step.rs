@@ -1,7 +1,5 @@
 //! The steps of the initialisation.
 
-use multicomputer::StartUp;
-
 /// A step of the initialisation (§4.2.1). A machine with a start-up has a price for each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StartUpStep {
@@ -25,10 +23,5 @@ impl StartUpStep {
             StartUpStep::PolygonCut => "polygon_cut",
             StartUpStep::PatchMade => "patch_made",
         }
-    }
-
-    /// The first step that a machine's start-up has no price for.
-    pub fn without_price(start_up: &StartUp) -> Option<StartUpStep> {
-        StartUpStep::ALL.into_iter().find(|step| !start_up.cycles.contains_key(step.name()))
     }
 }
