@@ -1,13 +1,18 @@
 //! The JSON Schema of experiment files: the rule of sweeps.
 
+use std::sync::LazyLock;
+
 use config::schema;
 use serde_json::{Map, Value, json};
 
 use super::fields::{Experiment, UNSWEPT};
 
+/// The fields of one run, as a schema without lists that sweep.
+pub static FIELDS: LazyLock<Value> = LazyLock::new(schema::of::<Experiment>);
+
 /// The schema of an experiment file.
 pub fn experiment_schema() -> Value {
-    let mut schema = schema::of::<Experiment>();
+    let mut schema = FIELDS.clone();
     sweepable(&mut schema, &[&UNSWEPT[..], &["machine"]].concat());
     if let Some(Value::Array(machine)) = schema.pointer_mut("/properties/machine/anyOf") {
         machine.iter_mut().for_each(|choice| sweepable(choice, &[]));

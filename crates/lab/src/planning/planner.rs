@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use config::{Document, Fault, Place, fill, read, refuse_unknown_keys, schema};
+use config::{Document, Fault, Place, fill, read, refuse_unknown_keys};
 use serde_json::Value;
 
 use crate::accuracy::answer::{self, Stored};
@@ -13,6 +13,7 @@ use crate::accuracy::tuned::Tuned;
 use crate::accuracy::tuner::tune;
 use crate::experiment::fields::Experiment;
 use crate::experiment::machine::open_up;
+use crate::experiment::schema::FIELDS;
 use crate::experiment::sweep::{Point, Sweep};
 use crate::files::digest::FileDigest;
 use crate::files::file::{PLAIN, is_plain};
@@ -57,7 +58,7 @@ impl Plan {
             }
             document.set(argument)?;
         }
-        let known = refuse_unknown_keys(&schema::of::<Experiment>(), &document.value);
+        let known = refuse_unknown_keys(&FIELDS, &document.value);
         known.map_err(|fault| document.locate(fault))?;
         let planner = Planner {
             path,

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use serde_json::Value;
 use viewer::ReportParts;
 
-use crate::experiment::schema::experiment_schema;
+use crate::experiment::schema::FIELDS;
 use crate::experiment::sweep::in_words;
 use crate::results::console::{Line, lines};
 use crate::results::summary::Summary;
@@ -187,7 +187,7 @@ fn table(names: &[&str], table: &Table) -> String {
 /// The table of all fields whose description marks a choice, with their values in this experiment.
 fn choices(manifest: &Value) -> String {
     let mut rows = Vec::new();
-    collect_choices(&experiment_schema(), &manifest["experiment"], "", &mut rows);
+    collect_choices(&FIELDS, &manifest["experiment"], "", &mut rows);
     rows.sort();
     let rows = rows.into_iter().map(|(number, field, value, about)| {
         format!(
