@@ -88,7 +88,7 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// Files under a folder of the workspace whose names end so, and their texts.
+/// Files under a folder of the workspace whose names have this ending, and their texts.
 fn files(folder: &str, ending: &str) -> BTreeMap<String, String> {
     let mut files = BTreeMap::new();
     for entry in fs::read_dir(root().join(folder)).unwrap().map(Result::unwrap) {
@@ -108,7 +108,7 @@ static SOURCES: LazyLock<BTreeMap<String, String>> = LazyLock::new(|| {
     files.filter(|(file, _)| file.split('/').nth(2) == Some("src")).collect()
 });
 
-/// Modules and their imports, but for tests in files of their own.
+/// Modules and their imports, except tests in files of their own.
 static IMPORTS: LazyLock<(Sources, Vec<Import>)> = LazyLock::new(|| {
     let used = SOURCES.iter().filter(|(file, _)| !file.ends_with("/tests.rs"));
     let sources = Sources::new(used.map(|(file, text)| (file.as_str(), text.as_str())));
