@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use lab::OpenScene;
-use radiosity::{Scene, Space};
+use radiosity::Space;
 use reference::{Estimate, ObjectRays, Objects};
 use serde_json::json;
 
@@ -66,12 +66,13 @@ pub fn tolerance(text: &str) -> Result<f64, String> {
 /// Computes form factors; returns what to print.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let open = OpenScene::load(&arguments.scene)?.without_media()?;
+    let objects = Objects::new(&open.scene);
     let threads = arguments.threads.count();
     let matrix = match arguments.method {
-        Method::Exact => exact(&open.scene, arguments.tolerance, threads),
+        Method::Exact => exact(&objects, arguments.tolerance, threads),
         Method::Rays => by_rays(&open, arguments, threads)?,
     };
-    let text = formatted(&Objects::new(&open.scene), &matrix, arguments.format);
+    let text = formatted(&objects, &matrix, arguments.format);
     let Some(path) = &arguments.output else { return Ok(text) };
     write(path, text)?;
     Ok(String::new())
@@ -80,8 +81,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
 /// Form factors, row by row.
 type Matrix = Vec<Vec<Estimate>>;
 
-fn exact(scene: &Scene, tolerance: f64, threads: usize) -> Matrix {
-    let objects = Objects::new(scene);
+fn exact(objects: &Objects, tolerance: f64, threads: usize) -> Matrix {
     let count = objects.count();
     let pairs: Vec<_> = (0..count).flat_map(|i| (i..count).map(move |j| (i, j))).collect();
     let steps = Steps::new("pairs of objects", pairs.len());

@@ -12,7 +12,7 @@ use live::{Board, Server, Site};
 
 use crate::exit::{Exit, print_note};
 
-/// How long viewers have to fetch the report if standard input is no terminal.
+/// How long viewers have to fetch the report if standard input is not a terminal.
 const PATIENCE: Duration = Duration::from_secs(5);
 
 /// Whether and where to serve.

@@ -50,9 +50,7 @@ impl Progress {
     /// The progress of a plan's runs; shows nothing if `quiet`.
     pub fn new(plan: Arc<Plan>, quiet: bool) -> Progress {
         let steps = plan.runs.len() as u64 * STEPS;
-        let target =
-            if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
-        let bar = ProgressBar::with_draw_target(Some(steps), target);
+        let bar = ProgressBar::with_draw_target(Some(steps), target(quiet));
         let style = ProgressStyle::with_template("{bar:36} {prefix}, {elapsed} elapsed{msg}");
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
         if !bar.is_hidden() {
@@ -103,9 +101,9 @@ impl Progress {
         let message = format!("{ended} of {runs} runs");
         // There is no estimate before something is done.
         let left = (self.bar.position() > 0).then(|| HumanDuration(self.bar.eta()));
-        let times_up = self.bar.elapsed().as_secs() / BETWEEN_LINES;
-        if self.lines && times_up > counts.lines {
-            counts.lines = times_up;
+        let due = self.bar.elapsed().as_secs() / BETWEEN_LINES;
+        if self.lines && due > counts.lines {
+            counts.lines = due;
             let elapsed = HumanDuration(self.bar.elapsed());
             let left = left.as_ref().map_or(String::new(), |left| format!(", {left} left"));
             print_note(&format!(
@@ -143,6 +141,11 @@ impl Progress {
     }
 }
 
+/// Where bars are drawn.
+fn target(quiet: bool) -> ProgressDrawTarget {
+    if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() }
+}
+
 /// A row of the table.
 fn row(name: &str, cells: [String; 5]) -> String {
     let [time, shots, messages, busy, unshot] = cells;
@@ -155,9 +158,7 @@ pub struct Pilots(ProgressBar);
 impl Pilots {
     /// Shows nothing if `quiet`.
     pub fn new(quiet: bool) -> Pilots {
-        let target =
-            if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
-        Pilots(ProgressBar::with_draw_target(None, target))
+        Pilots(ProgressBar::with_draw_target(None, target(quiet)))
     }
 
     /// A pilot run has ended.

@@ -36,10 +36,10 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     steps.end();
     let results = tried.into_iter().collect::<Result<Vec<_>, _>>()?;
     let all = || arguments.case.is_empty().then(|| PathBuf::from("results/stability"));
-    if let Some(out) = arguments.out.clone().or_else(all) {
-        write_page(&out, &results)?;
-    }
     let output = csv(&results).map_err(Exit::failure)?;
+    if let Some(out) = arguments.out.clone().or_else(all) {
+        write_page(&out, &results, &output)?;
+    }
     match results.iter().filter(|result| !result.holds()).count() {
         0 => Ok(output),
         wrong => {
@@ -62,13 +62,9 @@ fn place(folder: &Path, name: &str) -> Result<PathBuf, Exit> {
     Err(Exit::bad_input(format!("unknown case \"{name}\" (there are: {})", names.join(", "))))
 }
 
-fn write_page(out: &Path, results: &[CaseResult]) -> Result<(), Exit> {
+fn write_page(out: &Path, results: &[CaseResult], table: &str) -> Result<(), Exit> {
     make_folder(out, "results")?;
-    let table = csv(results).map_err(Exit::failure)?;
-    let files =
-        [("README.md", page(results)), ("cases.csv", table), ("stability.svg", svg(results))];
-    for (name, text) in files {
-        write(&out.join(name), text)?;
-    }
-    Ok(())
+    write(&out.join("README.md"), page(results))?;
+    write(&out.join("cases.csv"), table)?;
+    write(&out.join("stability.svg"), svg(results))
 }

@@ -25,13 +25,13 @@ fn read(path: &str) -> String {
     fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
-/// Names of what a folder holds, by their order.
+/// The names in a folder, sorted.
 fn names(folder: &str) -> BTreeSet<String> {
     let entries = fs::read_dir(root().join(folder)).unwrap();
     entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
 }
 
-/// All documents in Markdown, but those that programs write.
+/// All documents in Markdown, except those that programs write.
 fn documents() -> Vec<String> {
     let folders = ["experiments", "machines", "scenes", "results", "crates"];
     let files = ["README", "CONTRIBUTING", "CHANGELOG"].map(|name| format!("{name}.md"));
@@ -127,7 +127,7 @@ fn every_choice_in_the_code_is_listed() {
     assert_eq!(marked, listed);
 }
 
-/// `cargo test` leaves no crate out but the one that compares with other programs.
+/// `cargo test` builds all crates except the one that compares with other programs.
 #[test]
 fn every_crate_is_built_by_default() {
     let manifest = read("Cargo.toml");
@@ -172,7 +172,7 @@ fn mistakes(text: &str, sources: &mut Sources) -> Vec<String> {
     wrong
 }
 
-/// Every number that a document takes from results, and says so, is theirs.
+/// Numbers and phrases whose source a document names follow from that source.
 #[test]
 fn documents_tell_the_results() {
     let mut sources = Sources::new(root());

@@ -62,9 +62,8 @@ const KNOWS_NOTHING_OF: &[(&str, &str)] = &[
     ("what runs are", "virtwall"),
 ];
 
-/// No source file has more lines, but those in `LONG`: a list to be shortened, not added to.
+/// No source file has more lines.
 const MOST_LINES: usize = 400;
-const LONG: &[&str] = &[];
 
 /// Words to avoid, and what to write instead.
 const WORDS: &[(&str, &str)] = &[
@@ -89,7 +88,7 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// Files under a folder of the workspace whose names end so, and their texts.
+/// Files under a folder of the workspace whose names have this ending, and their texts.
 fn files(folder: &str, ending: &str) -> BTreeMap<String, String> {
     let mut files = BTreeMap::new();
     for entry in fs::read_dir(root().join(folder)).unwrap().map(Result::unwrap) {
@@ -109,7 +108,7 @@ static SOURCES: LazyLock<BTreeMap<String, String>> = LazyLock::new(|| {
     files.filter(|(file, _)| file.split('/').nth(2) == Some("src")).collect()
 });
 
-/// Modules and their imports, but for tests in files of their own.
+/// Modules and their imports, except tests in files of their own.
 static IMPORTS: LazyLock<(Sources, Vec<Import>)> = LazyLock::new(|| {
     let used = SOURCES.iter().filter(|(file, _)| !file.ends_with("/tests.rs"));
     let sources = Sources::new(used.map(|(file, text)| (file.as_str(), text.as_str())));
@@ -153,7 +152,6 @@ fn forbidden(imports: &[Import], folder: &str, forbidden: &str, rule: &str) -> V
 }
 
 #[test]
-
 fn folders_keep_the_rules() {
     let (sources, imports) = &*IMPORTS;
     let rules = RULES.iter().flat_map(|(f, paths)| forbidden(imports, f, paths, "RULES"));
@@ -170,7 +168,6 @@ fn folders_keep_the_rules() {
 }
 
 #[test]
-
 fn no_folder_or_file_imports_what_imports_it() {
     let circular = circular(&IMPORTS.1);
     let wrong = circular.iter().map(|(from, to, Import { file, line, path, .. })| {
@@ -205,7 +202,6 @@ fn arrows(diagram: &str) -> BTreeSet<(String, String)> {
 }
 
 #[test]
-
 fn crates_depend_along_the_arrows_of_the_readme() {
     let arrows = arrows(README.split("\n| crate").next().unwrap());
     let mut wrong = Vec::new();
@@ -241,13 +237,10 @@ fn crates_know_nothing_of_what_the_readme_says() {
 
 #[test]
 fn files_are_short() {
-    let count = |(file, text): (&String, &String)| (file.clone(), text.lines().count());
-    let lines: BTreeMap<String, usize> = SOURCES.iter().map(count).collect();
-    let long = lines.iter().filter(|(file, n)| **n > MOST_LINES && !LONG.contains(&file.as_str()));
+    let lines = SOURCES.iter().map(|(file, text)| (file, text.lines().count()));
+    let long = lines.filter(|(_, n)| *n > MOST_LINES);
     let long = long.map(|(file, n)| format!("{file}: {n} lines, more than {MOST_LINES}"));
-    let short = LONG.iter().filter(|file| lines.get(**file).is_none_or(|n| *n <= MOST_LINES));
-    let short = short.map(|file| format!("{file}: no longer long, take it out of LONG"));
-    none(&long.chain(short).collect::<Vec<_>>());
+    none(&long.collect::<Vec<_>>());
 }
 
 /// Uses of `WORDS`, also across lines, in the plural, and in `snake_case` and `CamelCase`.
@@ -277,7 +270,6 @@ fn avoided(file: &str, text: &str) -> Vec<String> {
 }
 
 #[test]
-
 fn words_are_plain() {
     // Folders of results are the output of runs.
     let ours =

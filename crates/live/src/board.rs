@@ -44,33 +44,32 @@ pub(crate) struct Parts {
 impl Board {
     /// Adds a part of a run; the first part begins the run.
     pub fn add(&self, run: usize, part: String) {
-        let mut state = self.lock();
-        if !state.under_way.contains(&run) {
-            state.under_way.push(run);
-        }
-        let parts = state.runs.entry(run).or_default();
-        parts.bytes += part.len();
-        match parts.bytes <= MOST_BYTES {
-            true => parts.parts.push(part.into()),
-            false => parts.cut = true,
-        }
-        self.changed.notify_all();
+        self.update(|state| {
+            if !state.under_way.contains(&run) {
+                state.under_way.push(run);
+            }
+            let parts = state.runs.entry(run).or_default();
+            parts.bytes += part.len();
+            match parts.bytes <= MOST_BYTES {
+                true => parts.parts.push(part.into()),
+                false => parts.cut = true,
+            }
+        });
     }
 
     /// A run has ended. The parts of runs that ended before it are dropped.
     pub fn end(&self, run: usize) {
-        let mut state = self.lock();
-        state.under_way.retain(|&other| other != run);
-        state.ended += 1;
-        state.runs.retain(|&other, parts| other == run || !parts.ended);
-        state.runs.entry(run).or_default().ended = true;
-        self.changed.notify_all();
+        self.update(|state| {
+            state.under_way.retain(|&other| other != run);
+            state.ended += 1;
+            state.runs.retain(|&other, parts| other == run || !parts.ended);
+            state.runs.entry(run).or_default().ended = true;
+        });
     }
 
     /// All runs have ended, and the site has its final page.
     pub fn finish(&self) {
-        self.lock().finished = true;
-        self.changed.notify_all();
+        self.update(|state| state.finished = true);
     }
 
     /// Waits until every viewer knows of the end and has fetched the final page, at most for `time`.
@@ -91,10 +90,9 @@ impl Board {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    pub(crate) fn update<T>(&self, change: impl FnOnce(&mut State) -> T) -> T {
-        let changed = change(&mut self.lock());
+    pub(crate) fn update(&self, change: impl FnOnce(&mut State)) {
+        change(&mut self.lock());
         self.changed.notify_all();
-        changed
     }
 
     /// Waits until `look` finds something, at most for `time`.

@@ -22,7 +22,7 @@ pub(crate) fn write(board: &Board, only: Option<usize>, to: &mut dyn Write) -> i
     written.map(|_| ())
 }
 
-/// Returns whether the viewer was told of the end.
+/// Writes events until the end; returns whether the viewer received that of the end.
 fn write_events(board: &Board, only: Option<usize>, to: &mut dyn Write) -> io::Result<bool> {
     to.write_all(b"HTTP/1.1 200 OK\r\nContent-Type: text/event-stream\r\n")?;
     to.write_all(b"Cache-Control: no-store\r\nTransfer-Encoding: chunked\r\n\r\n")?;

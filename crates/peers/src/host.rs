@@ -41,7 +41,7 @@ impl Host {
             !output_of("git", &["status", "--porcelain", "--untracked-files=no"]).is_empty();
         Host {
             processor: field(&cpu, "model name").unwrap_or("").to_owned(),
-            cores: std::thread::available_parallelism().map_or(1, usize::from),
+            cores: parallel::host_threads(),
             vectors: known
                 .into_iter()
                 .filter(|name| flags.split(' ').any(|flag| flag == *name))

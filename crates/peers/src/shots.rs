@@ -67,7 +67,7 @@ fn emitters(problem: &Problem) -> Vec<Source> {
 
 /// A patch as a plain program stores it. The fields that a shot reads and writes are first.
 #[derive(Clone)]
-pub struct PatchRecord {
+struct PatchRecord {
     form_factor: f64,
     energy: f64,
     radiosity: Rgb,

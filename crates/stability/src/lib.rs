@@ -1,5 +1,5 @@
-//! Stability cases: failures of ray-based radiosity, each as a small experiment that can be run. For every
-//! case there is what is right, what this program finds, and what a naive method finds.
+//! Stability cases: failures of ray-based radiosity, each as a small experiment that can be run. Each
+//! case has an expected result, which is compared with those of this program and of a naive method.
 //!
 //! - `cases`: a case as its file states it: an experiment, changes to its scene, what is right
 //! - `runs`: the runs of a case

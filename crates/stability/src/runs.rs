@@ -16,8 +16,6 @@ use crate::cases::change::Change;
 pub struct CaseRuns<'a> {
     /// The case.
     pub case: &'a Case,
-    /// Warnings about repairs to its scenes.
-    pub warnings: Vec<String>,
     /// All runs on the original scene, then all runs on each changed scene.
     pub list: Vec<CaseRun>,
     trials: Trials,
@@ -75,8 +73,12 @@ impl<'a> CaseRuns<'a> {
             }
         }
         let scene = experiment.value["scene"].as_str().unwrap_or_default();
-        let (warnings, scene_file) = (trials.warnings().to_vec(), folder.join(scene));
-        Ok(CaseRuns { case, warnings, list, trials, scene_file })
+        Ok(CaseRuns { case, list, trials, scene_file: folder.join(scene) })
+    }
+
+    /// Warnings about repairs to its scenes.
+    pub fn warnings(&self) -> &[String] {
+        self.trials.warnings()
     }
 
     /// The outcome of a run.

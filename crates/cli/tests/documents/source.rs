@@ -38,12 +38,12 @@ impl Sources {
 /// Rows of runs.csv. Single counts are columns too, such as `operations.ray`, and so are the host's
 /// times, such as `host.cpu_s`.
 fn csv(path: &Path) -> Result<Vec<Row>, String> {
-    let told = |error: csv::Error| format!("{}: {error}", path.display());
+    let message = |error: csv::Error| format!("{}: {error}", path.display());
     let mut rows: Vec<Row> = csv::Reader::from_path(path)
-        .map_err(told)?
+        .map_err(message)?
         .deserialize()
         .collect::<Result<_, _>>()
-        .map_err(told)?;
+        .map_err(message)?;
     for row in &mut rows {
         let counts = row.get("operations").cloned().unwrap_or_default();
         let counts = counts.split(' ').filter_map(|count| count.split_once('='));

@@ -18,8 +18,7 @@ use crate::cases::naive_method::NaiveMethod;
 pub struct Case {
     /// Path or URL of the JSON schema, for editors.
     #[serde(rename = "$schema", default)]
-    #[allow(dead_code, reason = "for editors")]
-    schema: Option<String>,
+    _schema: Option<String>,
     /// The failure in one line.
     pub title: String,
     /// Why careless methods fail.

@@ -1,9 +1,10 @@
 //! Direct light from the lamps.
 
-use radiosity::{Emitter, End, Ray};
+use radiosity::{Emitter, Ray};
 use virtwall::Problem;
 
-use crate::checks::casting::{emits, follow, shoot_through, sources};
+use crate::checks::casting::{emits, shoot_through, sources};
+use crate::checks::rays::our_polygon;
 use crate::finding::Count;
 use crate::runs::{CaseRun, CaseRuns};
 
@@ -20,8 +21,7 @@ pub fn sees(problem: &Problem, patch: &Emitter, lamp: &Emitter) -> bool {
     if direction.dot(patch.normal) <= 1e-6 || direction.dot(lamp.normal) >= -1e-6 {
         return false;
     }
-    let end = follow(problem, patch, &Ray::new(patch.centre, direction));
-    matches!(end, End::Hit { polygon, .. } if polygon == lamp.polygon)
+    our_polygon(problem, patch, &Ray::new(patch.centre, direction)) == Some(lamp.polygon)
 }
 
 /// Patches that see a lamp but are hit by none of its rays.

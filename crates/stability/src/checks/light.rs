@@ -14,12 +14,12 @@ use crate::runs::{CaseRun, CaseRuns};
 /// # Errors
 /// The reason why a run did not end; the same in all functions of this file.
 pub fn closure(runs: &CaseRuns) -> Result<f64, String> {
-    let errors = runs.outcomes()?;
-    Ok(errors.iter().map(|(_, outcome)| outcome.energy.error()).fold(0.0, worse))
+    let outcomes = runs.outcomes()?;
+    Ok(outcomes.iter().map(|(_, outcome)| outcome.energy.error()).fold(0.0, worse))
 }
 
 /// The greater of two numbers; NaN if one is NaN.
-pub fn worse(one: f64, other: f64) -> f64 {
+fn worse(one: f64, other: f64) -> f64 {
     if one.is_nan() || other.is_nan() { f64::NAN } else { one.max(other) }
 }
 

@@ -28,7 +28,7 @@ pub fn measures(runs: &CaseRuns) -> Vec<Finding> {
         bounds.no_numbers.map(|bound| whole("no_numbers", bound, light::no_numbers(runs))),
         bounds.shots.map(|bound| whole("shots", bound, light::shots(runs))),
         bounds.ends.as_ref().map(|part| words("ends", part, light::endings(runs))),
-        bounds.warns.as_ref().map(|part| words("warns", part, runs.warnings.join("; "))),
+        bounds.warns.as_ref().map(|part| words("warns", part, runs.warnings().join("; "))),
     ]
     .into_iter()
     .flatten()

@@ -52,7 +52,7 @@ pub fn owners(runs: &CaseRuns) -> Count {
     count
 }
 
-/// Rays that `ends` at another distance than that of the nearest polygon.
+/// Rays for which `ends` gives another distance than that of the nearest polygon.
 pub fn astray(
     runs: &CaseRuns,
     most: u64,

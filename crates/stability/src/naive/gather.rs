@@ -1,9 +1,10 @@
 //! Receivers that cast rays to find a lamp.
 
-use radiosity::{End, Ray};
+use radiosity::Ray;
 
-use crate::checks::casting::{follow, rays};
+use crate::checks::casting::rays;
 use crate::checks::direct::{lamps_and_others, sees};
+use crate::checks::rays::our_polygon;
 use crate::finding::Count;
 use crate::runs::CaseRuns;
 
@@ -15,10 +16,7 @@ pub fn dark(runs: &CaseRuns) -> Count {
         let (lamps, others) = lamps_and_others(runs, run);
         for lamp in &lamps {
             for patch in others.iter().filter(|patch| sees(problem, patch, lamp)) {
-                let finds = |ray: &Ray| {
-                    let end = follow(problem, patch, ray);
-                    matches!(end, End::Hit { polygon, .. } if polygon == lamp.polygon)
-                };
+                let finds = |ray: &Ray| our_polygon(problem, patch, ray) == Some(lamp.polygon);
                 let dark = !rays(runs, problem, patch).iter().any(finds);
                 count = count.and(Count { wrong: u64::from(dark), of: 1 });
             }

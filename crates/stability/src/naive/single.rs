@@ -67,12 +67,11 @@ pub fn leaks(runs: &CaseRuns, corners: Corners) -> Count {
         let origin = (source.centre + scene.origin).as_vec3();
         for ray in rays(runs, &run.problem, &source) {
             let direction = ray.direction.as_vec3();
-            let hit = |triangle: &&Triangle| {
+            let hit = |triangle: &Triangle| {
                 triangle.polygon != source.polygon
                     && distance(triangle, origin, direction).is_some()
             };
-            let leaks = !triangles.iter().any(|triangle| hit(&triangle));
-            count = count.and(Count { wrong: u64::from(leaks), of: 1 });
+            count = count.and(Count { wrong: u64::from(!triangles.iter().any(hit)), of: 1 });
         }
     }
     count

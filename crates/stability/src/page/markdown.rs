@@ -36,7 +36,7 @@ fn row(result: &CaseResult) -> String {
         cells.into_iter().filter(|cell| !cell.is_empty()).collect::<Vec<_>>().join("<br>")
     };
     let set = || format!("`{}`", settings(&case.naive_settings, "")).replace("``", "");
-    let how = case.naive.map_or_else(set, |twin| twin.words().to_owned());
+    let how = case.naive.map_or_else(set, |method| method.words().to_owned());
     let naive = each(&|finding| {
         finding
             .naive

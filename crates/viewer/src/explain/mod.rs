@@ -8,7 +8,7 @@ mod answers;
 mod critical_path;
 /// Numbers as text.
 mod format;
-/// What is missing to a perfect speed-up, as a product of factors.
+/// The gap to a perfect speed-up, as a product of factors.
 mod loss;
 /// Where the time of each node went.
 mod time_breakdown;
