@@ -6,7 +6,7 @@
 //! the square of the parts' size, that of the mesh with the patches' size.
 
 use crate::accuracy::pilot::{Knobs, Pilot, Pilots, threshold};
-use crate::accuracy::tuned::Causes;
+use crate::engine::error_figures::Causes;
 use crate::engine::simulator::Stopped;
 
 /// Exponent of the number of rays with which the error of the default directions falls.
@@ -173,7 +173,7 @@ impl Family {
             step,
             causes: Causes {
                 directions: self.error_correction * self.directions.0 / fall(rays) / parts,
-                centre: self.error_correction * self.centre / (parts * parts),
+                sampling: self.error_correction * self.centre / (parts * parts),
                 mesh: self.error_correction * self.of_mesh,
                 stopping,
             },

@@ -1,6 +1,7 @@
 //! A setting that was found, and the error and time predicted for it.
 
 use crate::accuracy::pilot::Knobs;
+use crate::engine::error_figures::Causes;
 
 /// A setting that was found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,36 +22,6 @@ pub struct Tuned {
     pub sweep_time_s: Option<f64>,
     /// Pilot runs needed to find it.
     pub pilots: usize,
-}
-
-/// Errors by cause, each relative to what is reflected; estimates.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Causes {
-    /// A hemisphere has a finite number of directions.
-    pub directions: f64,
-    /// Patches shoot from the centres of their parts.
-    pub centre: f64,
-    /// Patches are of one radiosity each.
-    pub mesh: f64,
-    /// Shooting ends before all is shot.
-    pub stopping: f64,
-}
-
-impl Causes {
-    fn named(&self) -> [(&'static str, f64); 4] {
-        let Causes { directions, centre, mesh, stopping } = *self;
-        [
-            ("directions", directions),
-            ("centre sampling", centre),
-            ("mesh", mesh),
-            ("stopping", stopping),
-        ]
-    }
-
-    /// The total: causes are independent.
-    pub fn total(&self) -> f64 {
-        self.named().iter().map(|(_, error)| error * error).sum::<f64>().sqrt()
-    }
 }
 
 impl Tuned {

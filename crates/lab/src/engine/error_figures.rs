@@ -20,12 +20,30 @@ pub struct ErrorFigures {
 /// reflected. As vectors they add up to the error: so it is at most their sum.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Causes {
-    /// What was not shot, over-shooting and the ambient term included.
-    pub stopping: f64,
     /// Rays in a finite number of directions.
     pub directions: f64,
     /// Shooting from the centres of patches, or of their parts.
     pub sampling: f64,
     /// The size of the run's patches.
     pub mesh: f64,
+    /// What was not shot, over-shooting and the ambient term included.
+    pub stopping: f64,
+}
+
+impl Causes {
+    /// Each part with its name for people.
+    pub fn named(&self) -> [(&'static str, f64); 4] {
+        let Causes { directions, sampling, mesh, stopping } = *self;
+        [
+            ("directions", directions),
+            ("centre sampling", sampling),
+            ("mesh", mesh),
+            ("stopping", stopping),
+        ]
+    }
+
+    /// The total of estimated parts, which are taken to be independent.
+    pub fn total(&self) -> f64 {
+        self.named().iter().map(|(_, error)| error * error).sum::<f64>().sqrt()
+    }
 }

@@ -1,84 +1,141 @@
-//! What one run found, as kept between a run and its row of results.
+//! What one run found, as kept between a run and its row of results. Each figure is a column, which
+//! `table::columns` describes. Figures of what a machine does not model are none.
 
+use multicomputer::LayerAccount;
 use serde::{Deserialize, Serialize};
+use virtwall::{DisplayReport, Outcome, StartUpReport};
 
-use crate::engine::display::DisplayFigures;
 use crate::engine::error_figures::ErrorFigures;
-use crate::engine::message_layer::MessageLayerFigures;
 use crate::engine::network::NetworkFigures;
-use crate::engine::node_memory::NodeMemoryFigures;
-use crate::engine::start_up::StartUpFigures;
 
-/// The figures of one run.
+/// The figures of one run. Those in shares of time and of energy are from 0 to 1.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Figures {
     /// Virtual seconds until the last node knows of the end; none on real threads.
     pub time_s: Option<f64>,
-    /// Patches that nodes shot from their own local environments.
     pub local_shots: u64,
-    /// Sources with masks that nodes received and shot on.
     pub received_shots: u64,
-    /// Messages with sources between compute nodes.
     pub messages: u64,
-    /// Their bytes.
     pub message_bytes: u64,
-    /// Radiosity updates to the service node.
     pub update_messages: u64,
-    /// Their bytes.
     pub update_bytes: u64,
-    /// Tokens, energy reports and other control messages.
     pub control_messages: u64,
-    /// Share of their time that nodes compute, 0 to 1; none on real threads.
+    /// None on real threads.
     pub busy_fraction: Option<f64>,
     /// |emitted − (absorbed + unshot + in transit + escaped + by media)| / emitted.
     pub energy_error: f64,
-    /// Where the emitted energy is at the end.
     pub energy: Energy,
     /// Whether the end was announced too early (§4.2.4), and the share of the emitted energy
     /// lost by it.
     pub too_early: Option<f64>,
-    /// Patches in all.
     pub patches: u64,
     /// Operations counted, by name.
     pub work: Vec<(String, u64)>,
-    /// Seconds that processors waited for what their caches missed, all added; none without caches.
-    #[serde(default)]
     pub missing_s: Option<f64>,
-    /// Seconds that processors waited for translations of addresses, all added; none where all are known.
-    #[serde(default)]
     pub translating_s: Option<f64>,
-    /// Figures of the network, if they are asked for.
-    #[serde(default)]
     pub network: Option<NetworkFigures>,
-    /// Figures of the nodes' memory, where the machine models it.
-    #[serde(default)]
     pub memory: Option<NodeMemoryFigures>,
-    /// Errors of its radiosities, if there is an answer to compare with.
-    #[serde(default)]
     pub errors: Option<ErrorFigures>,
-    /// Figures of the message layer, where the machine models one.
-    #[serde(default)]
     pub message_layer: Option<MessageLayerFigures>,
-    /// Figures of the display, where the machine models one.
-    #[serde(default)]
     pub display: Option<DisplayFigures>,
-    /// Figures of the start-up, where the machine models it.
-    #[serde(default)]
     pub start_up: Option<StartUpFigures>,
 }
 
 /// Where the energy is at the end of a run, in shares of the emitted energy, all colours together.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Energy {
-    /// Turned into heat by surfaces.
     pub absorbed: f64,
-    /// Waiting on patches to be shot.
     pub unshot: f64,
-    /// On its way between local environments.
     pub in_transit: f64,
-    /// Out of the scene.
     pub escaped: f64,
-    /// Absorbed by participating media.
-    #[serde(default)]
     pub medium: f64,
+}
+
+/// Figures of the nodes' memory.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NodeMemoryFigures {
+    pub high_water: u64,
+    pub paging_s: f64,
+}
+
+impl NodeMemoryFigures {
+    /// The figures of a run on a machine whose memory is modelled.
+    pub fn of(outcome: &Outcome) -> Option<NodeMemoryFigures> {
+        let high_water = outcome.nodes.iter().filter_map(|node| node.memory_high_water).max()?;
+        let paging: desim::Duration = outcome.nodes.iter().map(|node| node.paging).sum();
+        Some(NodeMemoryFigures { high_water, paging_s: paging.as_seconds_f64() })
+    }
+}
+
+/// What the message layer did on all compute nodes, in addition to overheads.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MessageLayerFigures {
+    pub packing_s: f64,
+    pub copying_s: f64,
+    pub waiting_for_room_s: f64,
+    pub coprocessor_s: f64,
+    pub unposted_messages: u64,
+    pub held_messages: u64,
+    pub buffer_bytes_most: u64,
+}
+
+impl MessageLayerFigures {
+    /// The figures of an account.
+    pub fn of(account: &LayerAccount) -> MessageLayerFigures {
+        MessageLayerFigures {
+            packing_s: account.packing.as_seconds_f64(),
+            copying_s: account.copying.as_seconds_f64(),
+            waiting_for_room_s: account.waiting_for_room.as_seconds_f64(),
+            coprocessor_s: account.coprocessor.as_seconds_f64(),
+            unposted_messages: account.unposted_messages,
+            held_messages: account.held_messages,
+            buffer_bytes_most: account.buffer_bytes_most,
+        }
+    }
+}
+
+/// Figures of the display.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DisplayFigures {
+    pub lag_s: f64,
+    pub shown: u64,
+    pub dropped: u64,
+    pub waiting_s: f64,
+    pub service_busy: f64,
+    pub ethernet_busy: f64,
+    pub display_busy: f64,
+}
+
+impl DisplayFigures {
+    /// The figures of a report.
+    pub fn of(report: &DisplayReport) -> DisplayFigures {
+        DisplayFigures {
+            lag_s: report.lag.as_seconds_f64(),
+            shown: report.shown,
+            dropped: report.dropped,
+            waiting_s: report.waiting.as_seconds_f64(),
+            service_busy: report.service_busy,
+            ethernet_busy: report.ethernet_busy,
+            display_busy: report.consumer_busy,
+        }
+    }
+}
+
+/// Start-up of the compute node that is ready last.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StartUpFigures {
+    pub start_up_s: f64,
+    pub reading_s: f64,
+    pub disk_wait_s: f64,
+}
+
+impl StartUpFigures {
+    /// The figures of a report.
+    pub fn of(report: &StartUpReport) -> StartUpFigures {
+        StartUpFigures {
+            start_up_s: report.time.as_seconds_f64(),
+            reading_s: report.reading.as_seconds_f64(),
+            disk_wait_s: report.disk_wait.as_seconds_f64(),
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! Simulates a run on the network model that its machine asks for; figures of the network.
 
-use multicomputer::{AutoResult, Machine, NetworkModel, Record, Recorder};
+use multicomputer::{AutoResult, Machine, NetworkModel, Recorder};
 use serde::{Deserialize, Serialize};
 use virtwall::{Outcome, Run, RunError, SharedObserver, simulate_observed};
 
@@ -12,13 +12,9 @@ const TOLERANCE: f64 = 0.01;
 /// Figures of the network in a run's results, if an experiment chooses a model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NetworkFigures {
-    /// The model used.
     pub rung: String,
-    /// Why, if it was not the experiment that said so.
     pub why: String,
-    /// The part of the time in which the link that was used most carried bytes.
     pub busiest_link: Option<f64>,
-    /// How long messages held each other up, all added, seconds.
     pub blocked_s: f64,
 }
 
@@ -86,12 +82,12 @@ pub fn rung(run: &Run, machine: &Machine, point: &Experiment) -> Result<NetworkM
 }
 
 fn figures(machine: &Machine, chosen: &AutoResult<Outcome>) -> NetworkFigures {
-    let record: &Record = &chosen.record;
+    let AutoResult { record, time, .. } = chosen;
     let links = machine.parameters.links.as_ref();
     NetworkFigures {
         rung: chosen.model.to_string(),
         why: chosen.why.clone(),
-        busiest_link: links.map(|l| record.busiest_link(machine.topology(), l, chosen.time)),
+        busiest_link: links.map(|links| record.busiest_link(machine.topology(), links, *time)),
         blocked_s: record.blocked().as_seconds_f64(),
     }
 }

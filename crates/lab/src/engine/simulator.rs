@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use config::{Fault, Place, unknown};
 use desim::Time;
-use multicomputer::Machine;
+use multicomputer::{Machine, MessageLayer};
 use radiosity::{Operation, Rgb};
 use serde::Serialize;
 use virtwall::{
@@ -15,13 +15,11 @@ use virtwall::{
     StartUpStep, Thing,
 };
 
-use crate::engine::display::DisplayFigures;
-use crate::engine::figures::{Energy, Figures};
+use crate::engine::figures::{
+    DisplayFigures, Energy, Figures, MessageLayerFigures, NodeMemoryFigures, StartUpFigures,
+};
 use crate::engine::knobs;
-use crate::engine::message_layer::{self, MessageLayerFigures};
 use crate::engine::network;
-use crate::engine::node_memory;
-use crate::engine::start_up::StartUpFigures;
 use crate::experiment::fields::Experiment;
 
 /// What the programs run on.
@@ -120,7 +118,7 @@ pub fn carry_out(
     };
     let (outcome, network, start_up) = outcome.map_err(|error: RunError| error.to_string())?;
     let start_up = start_up.as_ref().map(StartUpFigures::of);
-    let has_layer = on == On::Simulation && message_layer::tells(machine);
+    let has_layer = on == On::Simulation && machine.message_layer != MessageLayer::default();
     let message_layer = has_layer.then(|| MessageLayerFigures::of(&outcome.layer()));
     let caches = on == On::Simulation && !machine.processor.caches.is_empty();
     let missing_s = caches.then(|| outcome.missing().as_seconds_f64());
@@ -269,7 +267,7 @@ fn figures(problem: &Problem, outcome: &Outcome, virtual_time: bool) -> Figures 
         },
         patches: problem.patches() as u64,
         network: None,
-        memory: node_memory::figures(outcome),
+        memory: NodeMemoryFigures::of(outcome),
         message_layer: None,
         errors: None,
         display: outcome.display.as_ref().map(DisplayFigures::of),

@@ -1,9 +1,9 @@
 //! The columns of runs.csv. A new column is one entry of [`COLUMNS`].
 
+use multicomputer::MessageLayer;
 use radiosity::Refinement;
 use serde_json::{Value, json};
 
-use crate::engine::message_layer;
 use crate::engine::network;
 use crate::engine::simulator;
 use crate::experiment::sweep::Axis;
@@ -192,7 +192,7 @@ pub const COLUMNS: &[Column] = &[
         scientific(r.input.tuned?.predicted.directions)
     }),
     column("predicted_centre", "Predicted error from patch centres.", is_tuned, |r| {
-        scientific(r.input.tuned?.predicted.centre)
+        scientific(r.input.tuned?.predicted.sampling)
     }),
     column("predicted_mesh", "Predicted error from the mesh.", is_tuned, |r| {
         scientific(r.input.tuned?.predicted.mesh)
@@ -234,7 +234,7 @@ fn on_memory(run: &Input) -> bool {
 }
 
 fn on_message_layer(run: &Input) -> bool {
-    message_layer::tells(run.machine)
+    run.machine.message_layer != MessageLayer::default()
 }
 
 fn on_display(run: &Input) -> bool {
