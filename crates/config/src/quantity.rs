@@ -12,8 +12,6 @@ use crate::dimension::{Dimension, parse};
 
 /// What a quantity measures, and which values it may have.
 pub trait Measure {
-    /// Its name in schemas.
-    const NAME: &'static str;
     /// Its dimension.
     const DIMENSION: Dimension;
     /// An example, for messages and schemas.
@@ -35,7 +33,6 @@ macro_rules! measures {
         pub struct $name;
 
         impl Measure for $name {
-            const NAME: &'static str = stringify!($name);
             const DIMENSION: Dimension = Dimension::$name;
         }
     )* };
@@ -116,7 +113,7 @@ impl<M> Serialize for Quantity<M> {
 
 impl<M: Measure> JsonSchema for Quantity<M> {
     fn schema_name() -> Cow<'static, str> {
-        M::NAME.into()
+        M::DIMENSION.noun().into()
     }
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
@@ -139,7 +136,6 @@ mod tests {
     struct Share;
 
     impl Measure for Share {
-        const NAME: &'static str = "Share";
         const DIMENSION: Dimension = Dimension::Fraction;
         const RANGE: &'static str = "up to 100 %";
         fn allows(value: f64) -> bool {

@@ -1,7 +1,6 @@
 //! Answers that runs are compared with: stored references, and dense solutions of the runs' own meshes.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::sync::{Arc, Mutex, OnceLock};
 
 use config::Fault;
@@ -10,6 +9,7 @@ use reference::{Dense, Patches, Reference};
 use virtwall::Problem;
 
 use crate::files::digest::FileDigest;
+use crate::files::file;
 use crate::files::find::Found;
 use crate::host::held::held;
 
@@ -27,7 +27,6 @@ const TOLERANCE: f64 = 1e-4;
 
 /// An answer on patches of its own.
 pub struct Answer {
-    /// Its patches.
     pub patches: Patches,
     /// Their radiosities, W/m².
     pub radiosity: Vec<Rgb>,
@@ -37,9 +36,7 @@ pub struct Answer {
 
 /// A stored reference and the file that it was read from.
 pub struct Stored {
-    /// What it says.
     pub answer: Arc<Answer>,
-    /// Its file.
     pub digest: FileDigest,
 }
 
@@ -49,11 +46,9 @@ impl Stored {
     /// # Errors
     /// If it is no reference, or one of another scene.
     pub fn read(found: &Found, scene: &radiosity::Scene) -> Result<Stored, Fault> {
-        let digest = FileDigest::of(&found.path, &found.label)?;
+        let bytes = file::read(&found.path)?;
         let refuse = |message: String| Err(Fault::of_file(found.path.display(), message));
-        let text = fs::read_to_string(&found.path)
-            .map_err(|error| Fault::of_file(found.path.display(), error.to_string()))?;
-        let stored: Reference = match serde_json::from_str(&text) {
+        let stored: Reference = match serde_json::from_slice(&bytes) {
             Ok(stored) => stored,
             Err(error) => return refuse(format!("{error}; expected what `reference` has stored")),
         };
@@ -75,7 +70,7 @@ impl Stored {
         }
         let radiosity = stored.radiosity.iter().map(|&colours| Rgb::from(colours)).collect();
         let answer = Arc::new(Answer { patches, radiosity, error: stored.relative_l2_error });
-        Ok(Stored { answer, digest })
+        Ok(Stored { answer, digest: FileDigest::of_bytes(&bytes, &found.label) })
     }
 }
 

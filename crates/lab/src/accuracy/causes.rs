@@ -22,21 +22,15 @@ const ALL_SHOT: &str = "0.0001 %";
 
 /// A run whose error is to be explained.
 pub struct Explained<'a> {
-    /// What was run.
     pub point: &'a Experiment,
-    /// Scene, mesh and cut.
     pub problem: &'a Arc<Problem>,
     /// The machine; its times do not matter here.
     pub machine: &'a Machine,
-    /// Shots of the problem.
     pub kept: &'a Arc<KeptShots>,
 }
 
 impl Explained<'_> {
     /// The parts of the run's error, by way of the dense solution of its own mesh.
-    ///
-    /// # Errors
-    /// Why one of the additional runs did not end.
     pub fn causes(
         &self,
         radiosity: &Radiosity,

@@ -19,7 +19,6 @@ pub struct ErrorMeasure {
 }
 
 impl ErrorMeasure {
-    /// For the solutions of a problem.
     pub fn new(answer: &Arc<Answer>, problem: &Problem) -> ErrorMeasure {
         let own = Patches::of_all(&problem.space, &problem.environments);
         let overlaps = Overlaps::new(&answer.patches, &own);

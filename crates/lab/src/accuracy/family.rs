@@ -60,11 +60,8 @@ struct Curve {
 /// A setting with its predicted errors and time.
 #[derive(Clone, Copy)]
 pub struct Proposal {
-    /// The setting.
     pub knobs: Knobs,
-    /// The step of its threshold.
     pub step: usize,
-    /// Its errors.
     pub causes: Causes,
     /// Its virtual seconds on one processor.
     pub time_s: f64,
@@ -72,9 +69,6 @@ pub struct Proposal {
 
 impl Family {
     /// Fits the laws of a mesh to pilot runs, as far as the target needs.
-    ///
-    /// # Errors
-    /// Why a pilot did not end.
     pub fn explore(pilots: &Pilots, mesh: f64, target: f64) -> Result<Family, String> {
         let (split, threshold) = (1, threshold(0));
         let start =

@@ -23,7 +23,6 @@ use crate::open::settings::Settings;
 pub struct Knobs {
     /// Edge of a patch over that of the experiment or the scene.
     pub mesh: f64,
-    /// Rays a source.
     pub pixels: u32,
     /// Sources of a patch along each of its two directions.
     pub split: u32,
@@ -31,7 +30,6 @@ pub struct Knobs {
     pub threshold: f64,
     /// What a patch that does not emit shoots, over what it has not shot.
     pub overshoot: f64,
-    /// Whether the ambient term is added.
     pub ambient: bool,
 }
 
@@ -67,7 +65,6 @@ const FIRST_THRESHOLD: f64 = 0.1;
 /// Steps in which thresholds fall by half.
 const STEPS_A_HALVING: f64 = 2.0;
 
-/// The threshold of a step.
 pub fn threshold(step: usize) -> f64 {
     FIRST_THRESHOLD / 2.0_f64.powf(step as f64 / STEPS_A_HALVING)
 }
@@ -118,10 +115,6 @@ struct Prepared {
 }
 
 impl<'a> Pilots<'a> {
-    /// Pilot runs of a point.
-    ///
-    /// # Errors
-    /// The field of the experiment at fault.
     pub fn new(
         base: &'a Experiment,
         settings: &Settings,

@@ -6,9 +6,7 @@ use crate::engine::error_figures::Causes;
 /// A setting that was found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tuned {
-    /// The error asked for.
     pub target: f64,
-    /// The setting.
     pub knobs: Knobs,
     /// Its error, as witnesses estimate it.
     pub error: f64,
@@ -20,7 +18,6 @@ pub struct Tuned {
     pub time_s: f64,
     /// The least time of a sweep's runs below the target, if there is such a sweep, seconds.
     pub sweep_time_s: Option<f64>,
-    /// Pilot runs needed to find it.
     pub pilots: usize,
 }
 

@@ -10,9 +10,6 @@ use crate::experiment::source_split::SplitFields;
 const MOST_PARTS: u32 = 64;
 
 /// Refuses values that make no sense.
-///
-/// # Errors
-/// The field, and what is wrong with it.
 pub fn check(point: &Experiment) -> Result<(), (&'static str, String)> {
     let SplitFields { most, nearer_than } = point.source_split;
     if !(1..=MOST_PARTS).contains(&most) {

@@ -29,9 +29,6 @@ pub fn is_open(machine: &Machine) -> bool {
 }
 
 /// Simulates a run on the machine's model of its network, with an observer.
-///
-/// # Errors
-/// Why the run did not end.
 pub fn simulate(
     run: &Run,
     machine: &Machine,
@@ -68,9 +65,6 @@ pub fn simulate(
 }
 
 /// The network model of a run. If the machine leaves it open, a simulation chooses it.
-///
-/// # Errors
-/// Why the run did not end.
 pub fn rung(run: &Run, machine: &Machine, point: &Experiment) -> Result<NetworkModel, RunError> {
     match machine.network_model {
         Some(model) => Ok(model),

@@ -96,9 +96,6 @@ pub fn run(
 
 /// Carries out a run, on the simulated `machine` or on threads. Returns its figures, and its radiosities by
 /// environment. Only a simulated run has an observer.
-///
-/// # Errors
-/// Why the run did not end.
 pub fn carry_out(
     run: &Run,
     point: &Experiment,
@@ -137,9 +134,6 @@ pub type Light = Vec<Vec<Rgb>>;
 
 /// The light of a simulated run at each of `times`, in rising order; and the time of the run's end, after
 /// which the light does not change.
-///
-/// # Errors
-/// Why the run did not end.
 pub fn light_at(
     run: &Run,
     point: &Experiment,
@@ -162,7 +156,6 @@ pub fn light_at(
 
 /// A run as it would have ended at a threshold.
 pub struct Stopped {
-    /// Virtual seconds.
     pub time_s: f64,
     /// The part of the emitted energy that was not shot.
     pub unshot: f64,
@@ -174,9 +167,6 @@ pub struct Stopped {
 
 /// The states in which a run on one processor would end at each of `thresholds`, in falling order. The last
 /// one is the threshold of the run itself.
-///
-/// # Errors
-/// Why the run did not end.
 pub fn stops(
     run: &Run,
     point: &Experiment,
@@ -228,9 +218,6 @@ pub fn solved(problem: &Problem, unshot: f64) -> (Light, f64) {
 }
 
 /// Carries out a run on the simulated `machine`; returns its whole outcome.
-///
-/// # Errors
-/// Why the run did not end.
 pub fn outcome(run: &Run, point: &Experiment, machine: &Machine) -> Result<Outcome, String> {
     let simulated = network::simulate(run, machine, point, None);
     simulated.map(|(outcome, _)| outcome).map_err(|error| error.to_string())
@@ -284,7 +271,6 @@ pub fn owners(point: &Experiment, problem: &Problem) -> Vec<usize> {
     point.mapping.owners(environments, point.processors as usize, point.seed)
 }
 
-/// The rules that a point of an experiment sets.
 fn rules(point: &Experiment) -> Rules {
     Rules {
         selection: point.selection,

@@ -31,9 +31,6 @@ const REPLACED: [&str; 6] = [
 
 impl AccuracyFields {
     /// Refuses an error out of range, and an experiment that also sets what it replaces.
-    ///
-    /// # Errors
-    /// The field, and what is wrong with it.
     pub fn check(&self, experiment: &Value) -> Result<(), WrongField> {
         let error = self.relative_l2;
         if !(1e-4..=1.0).contains(&error) {

@@ -13,7 +13,6 @@ const MOST_RUNS: usize = 100_000;
 pub struct Axis {
     /// Place of its list in the file.
     pub place: Place,
-    /// Its values, in the file's order.
     pub values: Vec<Value>,
 }
 
@@ -22,7 +21,6 @@ pub struct Axis {
 pub struct Point {
     /// Which value of each axis this is.
     pub index: Vec<usize>,
-    /// The experiment.
     pub value: Value,
 }
 
@@ -147,7 +145,6 @@ fn point(file: &Value, axes: &[Axis], run: usize) -> Point {
     Point { index, value }
 }
 
-/// Replaces the list at `place` by `item`.
 fn put(value: &mut Value, place: &Place, item: &Value) {
     let target = place.0.iter().fold(value, |value, step| match step {
         Step::Key(key) => &mut value[key.as_str()],

@@ -38,7 +38,6 @@ impl<const N: usize> Counts<N> {
             })
     }
 
-    /// How many boxes there are in all.
     pub fn product(self) -> u64 {
         self.0.iter().map(|&n| u64::from(n)).product()
     }

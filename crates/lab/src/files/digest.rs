@@ -22,20 +22,14 @@ pub fn sha256(bytes: &[u8]) -> String {
 pub struct FileDigest {
     /// What results call the file.
     pub label: String,
-    /// SHA-256 of its bytes.
     pub sha256: String,
 }
 
 impl FileDigest {
-    /// Digests a file that results call `label`.
-    ///
-    /// # Errors
-    /// If it cannot be read.
     pub fn of(path: &Path, label: &str) -> Result<FileDigest, Fault> {
         Ok(FileDigest::of_bytes(&file::read(path)?, label))
     }
 
-    /// Digests the bytes of a file that results call `label`.
     pub fn of_bytes(bytes: &[u8], label: &str) -> FileDigest {
         FileDigest { label: label.replace('\\', "/"), sha256: sha256(bytes) }
     }

@@ -14,10 +14,6 @@ pub fn is_plain(name: &str) -> bool {
     !name.is_empty() && name.len() <= 100 && !name.starts_with('.') && name.chars().all(plain)
 }
 
-/// A file's bytes.
-///
-/// # Errors
-/// If it cannot be read.
 pub fn read(path: &Path) -> Result<Vec<u8>, Fault> {
     fs::read(path).map_err(|error| unreadable(path, error))
 }

@@ -4,39 +4,21 @@ use config::unknown;
 use std::path::{Path, PathBuf};
 
 /// A kind of files that go by their names.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FileKind {
-    /// Scene descriptions.
-    Scenes,
-    /// Machine descriptions.
-    Machines,
-    /// Stored references.
-    References,
+pub struct FileKind {
+    noun: &'static str,
+    /// Its folder, beside that of the file that names it.
+    folder: &'static str,
 }
 
 impl FileKind {
-    fn noun(self) -> &'static str {
-        match self {
-            FileKind::Scenes => "scene",
-            FileKind::Machines => "machine",
-            FileKind::References => "reference",
-        }
-    }
-
-    /// Its folder, beside that of the file that names it.
-    fn folder(self) -> &'static str {
-        match self {
-            FileKind::Scenes => "scenes",
-            FileKind::Machines => "machines",
-            FileKind::References => "results/references",
-        }
-    }
+    pub const SCENES: FileKind = FileKind { noun: "scene", folder: "scenes" };
+    pub const MACHINES: FileKind = FileKind { noun: "machine", folder: "machines" };
+    pub const REFERENCES: FileKind = FileKind { noun: "reference", folder: "results/references" };
 }
 
 /// A file that a name or a path leads to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
-    /// Where it is.
     pub path: PathBuf,
     /// What results call it, the same wherever the project lies: "scenes/office.json", or the
     /// path as the user wrote it.
@@ -44,9 +26,6 @@ pub struct Found {
 }
 
 /// A file at a path from the folder of the one that names it.
-///
-/// # Errors
-/// If there is none: a message that says so.
 pub fn named_from(folder: &Path, name: &str) -> Result<PathBuf, String> {
     let path = folder.join(name);
     match path.is_file() {
@@ -61,7 +40,7 @@ pub fn named_from(folder: &Path, name: &str) -> Result<PathBuf, String> {
 ///
 /// # Errors
 /// If there is no such file: a message that lists the names there are.
-pub fn find(folder: &Path, kind: FileKind, name: &str) -> Result<Found, String> {
+pub fn find(folder: &Path, kind: &FileKind, name: &str) -> Result<Found, String> {
     if name.contains(['/', '\\']) || name.ends_with(".json") || name.ends_with(".obj") {
         return [folder.join(name), PathBuf::from(name)]
             .into_iter()
@@ -72,7 +51,7 @@ pub fn find(folder: &Path, kind: FileKind, name: &str) -> Result<Found, String> 
                 format!("\"{name}\": no such file; expected a path from {}", from.display())
             });
     }
-    let inside = kind.folder();
+    let inside = kind.folder;
     let folders = [beside(folder).join(inside), PathBuf::from(inside)];
     let file = format!("{name}.json");
     if !name.is_empty()
@@ -83,10 +62,9 @@ pub fn find(folder: &Path, kind: FileKind, name: &str) -> Result<Found, String> 
     let mut known: Vec<String> = folders.iter().flat_map(|folder| names(folder)).collect();
     known.sort();
     known.dedup();
-    Err(unknown(kind.noun(), name, &known))
+    Err(unknown(kind.noun, name, &known))
 }
 
-/// The folder that holds `folder`.
 fn beside(folder: &Path) -> PathBuf {
     match (folder.file_name(), folder.parent()) {
         (Some(_), Some(parent)) => parent.to_owned(),

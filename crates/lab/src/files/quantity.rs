@@ -7,7 +7,6 @@ use config::{Dimension, Measure, Quantity};
 pub struct LengthKind;
 
 impl Measure for LengthKind {
-    const NAME: &'static str = "a length";
     const DIMENSION: Dimension = Dimension::Length;
     const EXAMPLE: &'static str = "0.30 m";
     const RANGE: &'static str = "more than 0";
@@ -21,7 +20,6 @@ impl Measure for LengthKind {
 pub struct FractionKind;
 
 impl Measure for FractionKind {
-    const NAME: &'static str = "a fraction";
     const DIMENSION: Dimension = Dimension::Fraction;
     const EXAMPLE: &'static str = "10 %";
     const RANGE: &'static str = "from 0 % to 100 %";
@@ -35,7 +33,6 @@ impl Measure for FractionKind {
 pub struct PeriodKind;
 
 impl Measure for PeriodKind {
-    const NAME: &'static str = "a time";
     const DIMENSION: Dimension = Dimension::Time;
     const EXAMPLE: &'static str = "1 s";
     const RANGE: &'static str = "from 1 ps to 86400 s";
@@ -49,7 +46,6 @@ impl Measure for PeriodKind {
 pub struct AbsorptionKind;
 
 impl Measure for AbsorptionKind {
-    const NAME: &'static str = "an absorption";
     const DIMENSION: Dimension = Dimension::PerLength;
     const EXAMPLE: &'static str = "0.5 /m";
     const RANGE: &'static str = "from 0 /m to 1e9 /m";

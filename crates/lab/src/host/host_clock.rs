@@ -54,7 +54,6 @@ impl Interval {
     }
 }
 
-/// Host times of one run.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct HostTimes {
     /// CPU seconds of the thread that carried out the run, without the help of other threads.
@@ -62,6 +61,5 @@ pub struct HostTimes {
     /// CPU seconds to prepare its scene: reading, cleaning, cutting, meshing. Runs of the same scene share
     /// this work.
     pub set_up_s: f64,
-    /// Elapsed seconds.
     pub clock_s: f64,
 }

@@ -14,9 +14,6 @@ use crate::planning::preparing::Preparing;
 
 /// Validates an experiment, a machine, a trace, a scene description or an OBJ file, with all that
 /// it names, and says what it is.
-///
-/// # Errors
-/// The first fault met.
 pub fn check(path: &Path) -> Result<String, Fault> {
     if path.extension().is_some_and(|ending| ending == "obj") {
         return scene(path, "an OBJ file");

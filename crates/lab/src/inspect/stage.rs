@@ -53,9 +53,6 @@ pub struct Which<'a> {
 impl Stage {
     /// The scene that a name or a path means; or a run of the experiment that a path means, or of the
     /// one whose results are in a folder.
-    ///
-    /// # Errors
-    /// What is wrong, and where.
     pub fn open(what: &str, which: &Which) -> Result<Stage, Fault> {
         let path = Path::new(what);
         if path.is_dir() {
@@ -75,7 +72,7 @@ impl Stage {
     }
 
     fn of_scene(name: &str) -> Result<Stage, Fault> {
-        let found = find(Path::new("."), FileKind::Scenes, name).map_err(Fault::complete)?;
+        let found = find(Path::new("."), &FileKind::SCENES, name).map_err(Fault::complete)?;
         let scene = Scene::load(&found)?;
         let fault = |(_, message)| Fault::of_file(&found.label, message);
         let mut whole = Experiment::of_one_environment(name);

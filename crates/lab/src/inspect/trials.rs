@@ -4,7 +4,6 @@ use std::path::Path;
 use std::sync::Arc;
 
 use config::{Document, Fault};
-use serde_json::Value;
 use virtwall::{KeptShots, Outcome, Problem};
 
 use crate::engine::simulator;
@@ -24,9 +23,6 @@ pub struct Trials {
 
 impl Trials {
     /// Validates an experiment that is part of another file, as if it were the file at `path`.
-    ///
-    /// # Errors
-    /// The first fault met.
     pub fn of(document: &Document, path: &Path) -> Result<Trials, Fault> {
         Ok(Trials {
             plan: Plan::of(path, document.clone(), &[], &Preparing::default())?,
@@ -41,12 +37,9 @@ impl Trials {
 
     /// The swept fields of a run, such as "cut 2x2x1".
     pub fn label(&self, run: usize) -> String {
-        let axes = self.plan.axes.iter().zip(&self.plan.runs[run].index);
-        let field = |(axis, &item): (&crate::experiment::sweep::Axis, &usize)| {
-            let value: &Value = &axis.values[item];
-            format!("{} {}", axis.place, in_words(value))
-        };
-        axes.map(field).collect::<Vec<_>>().join(", ")
+        let swept = self.plan.swept(&self.plan.runs[run]);
+        let fields = swept.map(|(field, value)| format!("{field} {}", in_words(value)));
+        fields.collect::<Vec<_>>().join(", ")
     }
 
     /// What was corrected in the scenes.
@@ -60,9 +53,6 @@ impl Trials {
     }
 
     /// The problem that another scene makes under a run's settings.
-    ///
-    /// # Errors
-    /// If it makes none.
     pub fn problem_of(&self, run: usize, scene: &radiosity::Scene) -> Result<Arc<Problem>, Fault> {
         let settings = &self.plan.problems[self.plan.runs[run].problem].settings;
         problem::problem(scene, settings)
@@ -70,9 +60,6 @@ impl Trials {
     }
 
     /// Runs a problem as a run says, on its simulated machine.
-    ///
-    /// # Errors
-    /// Why the run did not end.
     pub fn outcome(&self, run: usize, problem: &Arc<Problem>) -> Result<Outcome, String> {
         let run = &self.plan.runs[run];
         let machine = &self.plan.machines[run.machine].machine;

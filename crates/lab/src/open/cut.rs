@@ -7,8 +7,7 @@ const MOST_CELLS: u32 = 128;
 
 /// Cells for a scene of these extents (m): about one a polygon, near to cubes, and a multiple of
 /// the cut along each axis.
-pub fn automatic_cells(extents: [f64; 3], polygons: usize, cut: Option<Triple>) -> Triple {
-    let cut = cut.map_or([1; 3], |cut| cut.0);
+pub fn automatic_cells(extents: [f64; 3], polygons: usize, cut: Triple) -> Triple {
     let edges = extents.map(|extent| extent.max(0.0));
     let solid: Vec<f64> = edges.into_iter().filter(|&edge| edge > 0.0).collect();
     let size: f64 = solid.iter().product();
@@ -18,7 +17,7 @@ pub fn automatic_cells(extents: [f64; 3], polygons: usize, cut: Option<Triple>) 
     for axis in 0..3 {
         // A cast from f64 saturates, and takes 0/0 to 0.
         let wanted = ((edges[axis] / edge).round() as u32).clamp(1, MOST_CELLS);
-        cells[axis] = wanted.div_ceil(cut[axis]) * cut[axis];
+        cells[axis] = wanted.next_multiple_of(cut.0[axis]);
     }
     Counts(cells)
 }
@@ -75,12 +74,10 @@ mod tests {
 
     #[test]
     fn cells_are_near_to_cubes_and_divide_by_the_cut() {
-        assert_eq!(automatic_cells([8.0, 4.0, 2.0], 64, None), Counts([8, 4, 2]));
-        assert_eq!(
-            automatic_cells([8.0, 4.0, 2.0], 64, Some(Counts([3, 1, 1]))),
-            Counts([9, 4, 2])
-        );
-        assert_eq!(automatic_cells([4.0, 4.0, 0.0], 16, None), Counts([4, 4, 1]));
-        assert_eq!(automatic_cells([1e9, 1e-9, 1.0], 1000, None).0[0], MOST_CELLS);
+        let cells = |extents, polygons, cut| automatic_cells(extents, polygons, Counts(cut)).0;
+        assert_eq!(cells([8.0, 4.0, 2.0], 64, [1; 3]), [8, 4, 2]);
+        assert_eq!(cells([8.0, 4.0, 2.0], 64, [3, 1, 1]), [9, 4, 2]);
+        assert_eq!(cells([4.0, 4.0, 0.0], 16, [1; 3]), [4, 4, 1]);
+        assert_eq!(cells([1e9, 1e-9, 1.0], 1000, [1; 3])[0], MOST_CELLS);
     }
 }

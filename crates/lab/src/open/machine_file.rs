@@ -12,10 +12,8 @@ use crate::files::find::{FileKind, Found, find};
 /// A longer row of machines that extend each other can only be a circle.
 const LONGEST_ROW: usize = 8;
 
-/// A machine, and the files that it was read from.
 #[derive(Clone)]
 pub struct MachineFile {
-    /// The machine.
     pub machine: Machine,
     /// The whole machine as one file would say it.
     pub value: Value,
@@ -26,9 +24,6 @@ pub struct MachineFile {
 impl MachineFile {
     /// Reads a machine from its file, and what that says to extend from there. Each of these files
     /// must describe a machine by itself, so that a fault is always in the file that is named.
-    ///
-    /// # Errors
-    /// What is wrong, and where.
     pub fn load(found: &Found) -> Result<MachineFile, Fault> {
         MachineFile::within(found, LONGEST_ROW)
     }
@@ -44,7 +39,7 @@ impl MachineFile {
                 return Err(fault(format!("found \"{base}\"; expected an end of the row")));
             }
             let folder = found.path.parent().unwrap_or(Path::new(""));
-            let base = find(folder, FileKind::Machines, base).map_err(fault)?;
+            let base = find(folder, &FileKind::MACHINES, base).map_err(fault)?;
             let base = MachineFile::within(&base, longest - 1)?;
             let changes = std::mem::replace(&mut document.value, base.value);
             merge(&mut document.value, without_extends(changes));

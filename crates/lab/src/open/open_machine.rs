@@ -22,11 +22,8 @@ pub struct OpenMachine {
 impl OpenMachine {
     /// Reads the machine that a name, or a path to a machine file, means. Unlike an experiment's, it
     /// need not price any operation.
-    ///
-    /// # Errors
-    /// What is wrong, and where.
     pub fn load(name: &str) -> Result<OpenMachine, Fault> {
-        let found = find(Path::new("."), FileKind::Machines, name).map_err(Fault::complete)?;
+        let found = find(Path::new("."), &FileKind::MACHINES, name).map_err(Fault::complete)?;
         let MachineFile { machine, value, .. } = MachineFile::load(&found)?;
         Ok(OpenMachine { machine, label: found.label, value })
     }

@@ -29,11 +29,8 @@ pub struct OpenScene {
 
 impl OpenScene {
     /// Loads the scene that a name, or a path to a scene description or an OBJ file, means.
-    ///
-    /// # Errors
-    /// What is wrong, and where.
     pub fn load(name: &str) -> Result<OpenScene, Fault> {
-        let found = find(Path::new("."), FileKind::Scenes, name).map_err(Fault::complete)?;
+        let found = find(Path::new("."), &FileKind::SCENES, name).map_err(Fault::complete)?;
         let scene = Scene::load(&found)?;
         let whole = Experiment::of_one_environment(name);
         let settings = Settings::of(&whole, &scene)

@@ -11,17 +11,11 @@ use crate::open::settings::Settings;
 use crate::open::wall_mesh::WallMesh;
 
 /// Meshes and cuts a scene.
-///
-/// # Errors
-/// The experiment's field at fault, and what is wrong with it.
 pub fn problem(scene: &radiosity::Scene, settings: &Settings) -> Result<Arc<Problem>, WrongField> {
     Ok(problem_on(scene, settings, 1)?.0)
 }
 
 /// The same on `threads` threads, and the CPU seconds of all of them.
-///
-/// # Errors
-/// Those of [`problem`].
 pub fn problem_on(
     scene: &radiosity::Scene,
     settings: &Settings,
@@ -48,7 +42,6 @@ pub fn problem_on(
     Ok((Arc::new(problem), cpu_s))
 }
 
-/// Cuts a scene.
 fn cut(scene: &radiosity::Scene, settings: &Settings) -> Result<CutScene, WrongField> {
     let (reflector, emitter) = (settings.patch_size, settings.emitter_patch_size);
     let options = ProblemOptions {
@@ -78,7 +71,6 @@ fn smaller_hemispheres(settings: &Settings) -> Result<Vec<Hemisphere>, WrongFiel
     smaller.take_while(|&pixels| pixels >= least).map(|p| hemisphere(settings, p)).collect()
 }
 
-/// A hemisphere of `pixels` pixels.
 fn hemisphere(settings: &Settings, pixels: u32) -> Result<Hemisphere, WrongField> {
     let hemisphere = Hemisphere::new(settings.directions, pixels, settings.rotated)
         .map_err(|error| ("hemisphere.pixels", error.to_string()))?;
@@ -89,7 +81,6 @@ fn depth_bits(bits: u32) -> Result<DepthBits, WrongField> {
     DepthBits::of(bits).ok_or_else(|| ("mask_bits", format!("{bits} bits; expected 8 or 16")))
 }
 
-/// The virtual walls of a mesh.
 fn walls(mesh: WallMesh) -> Result<VirtualWalls, WrongField> {
     VirtualWalls::new(mesh.patches.0, mesh.directions, mesh.rays).map_err(|error| {
         let field = match error {

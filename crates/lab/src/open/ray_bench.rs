@@ -1,5 +1,7 @@
 //! Rays from random points of a scene, to compare the speed of the kernel with that of other ray tracers.
 
+use std::ops::Add;
+
 use radiosity::glam::DVec3;
 use radiosity::{
     Emitter, Hemisphere, HemisphereError, HemisphereKind, LocalEnvironment, Mask, PatchSize, Rgb,
@@ -14,7 +16,6 @@ use crate::open::open_scene::OpenScene;
 pub struct RayBench {
     /// The scene, in coordinates of its own.
     pub space: Space,
-    /// All of it.
     whole: LocalEnvironment,
     /// The rays of each source: cosine-weighted, turned as [`Hemisphere::frame`] says.
     pub hemisphere: Hemisphere,
@@ -50,15 +51,10 @@ impl RayBench {
 
     /// Like [`RayBench::cast`], with the sources shared out among `threads`.
     pub fn cast_on(&self, threads: usize, plain: bool) -> Work {
-        std::thread::scope(|scope| {
-            let shares = self.sources.chunks(self.sources.len().div_ceil(threads).max(1));
-            let threads: Vec<_> =
-                shares.map(|share| scope.spawn(move || self.cast_from(share, plain))).collect();
-            threads.into_iter().fold(Work::NONE, |sum, thread| match thread.join() {
-                Ok(work) => sum + work,
-                Err(panic) => std::panic::resume_unwind(panic),
-            })
-        })
+        let share = self.sources.len().div_ceil(threads).max(1);
+        let shares: Vec<&[Emitter]> = self.sources.chunks(share).collect();
+        let cast = |number: usize| self.cast_from(shares[number], plain);
+        parallel::map(shares.len(), threads, cast).into_iter().fold(Work::NONE, Work::add)
     }
 
     fn cast_from(&self, sources: &[Emitter], plain: bool) -> Work {

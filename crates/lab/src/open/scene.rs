@@ -11,15 +11,12 @@ use crate::files::digest::FileDigest;
 use crate::files::find::Found;
 use crate::open::scene_file::SceneFile;
 
-/// A scene with its description, if it has one.
 pub struct Scene {
     /// Its description; none for a bare OBJ file.
     pub file: Option<SceneFile>,
-    /// Its geometry.
     pub geometry: radiosity::Scene,
     /// What was corrected on loading.
     pub warnings: Vec<String>,
-    /// The files it was read from.
     pub digests: Vec<FileDigest>,
     /// Bytes of its geometry and materials.
     pub bytes: u64,
@@ -27,9 +24,6 @@ pub struct Scene {
 
 impl Scene {
     /// Loads a scene description and its geometry, or a bare OBJ file.
-    ///
-    /// # Errors
-    /// What is wrong with them, and where.
     pub fn load(found: &Found) -> Result<Scene, Fault> {
         let (path, label) = (&found.path, Path::new(&found.label));
         if path.extension().is_some_and(|ending| ending == "obj") {

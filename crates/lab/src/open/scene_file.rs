@@ -70,9 +70,6 @@ fn default_seed() -> u64 {
 
 impl SceneFile {
     /// Reads a scene description and checks it.
-    ///
-    /// # Errors
-    /// A fault of the document, at its place.
     pub fn of(document: &Document) -> Result<SceneFile, Fault> {
         let file: SceneFile = document.read_as()?;
         for (environments, cut) in &file.cuts {

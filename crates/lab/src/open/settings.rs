@@ -17,49 +17,34 @@ const BARE_PATCHES: f64 = 1.0 / 50.0;
 /// Most patches: more would not fit a usual host's memory.
 const MOST_PATCHES: f64 = 2e7;
 
-/// How a scene is meshed, cut and lit: all that decides the result of a shot.
+/// How a scene is meshed, cut and lit: all that decides the result of a shot. The fields are those of
+/// the experiment; lengths are in metres.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Settings {
-    /// The scene, as the experiment names it.
     pub scene: String,
-    /// Local environments along x, y and z.
     pub cut: Triple,
-    /// Cells along x, y and z.
     pub cells: Triple,
-    /// Longest edge of a patch, metres.
     #[serde(rename = "patch_size_m")]
     pub patch_size: f64,
-    /// Longest edge of a patch that emits light, metres.
     #[serde(rename = "emitter_patch_size_m")]
     pub emitter_patch_size: f64,
-    /// Where patches are smaller.
     #[serde(skip_serializing_if = "RefineFields::is_none")]
     pub refine: RefineFields,
-    /// How rays are spread over the hemisphere.
     pub directions: HemisphereKind,
-    /// Rays a source.
     pub pixels: u32,
-    /// Rays of the dimmest sources, if fewer.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub least_pixels: Option<u32>,
-    /// Whether each source turns them.
     pub rotated: bool,
-    /// Virtual walls in place of masks.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub virtual_walls: Option<WallMesh>,
-    /// Bits of an integer of a mask, if other than usual.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mask_bits: Option<u32>,
-    /// Whether they are oriented by its position.
     #[serde(skip_serializing_if = "is_false")]
     pub by_place: bool,
 }
 
 impl Settings {
     /// The experiment's own settings, else the scene file's, else automatic ones.
-    ///
-    /// # Errors
-    /// The field at fault, and what is wrong.
     pub fn of(point: &Experiment, scene: &Scene) -> Result<Settings, WrongField> {
         let (cells, cut) = cells_and_cut(point, scene)?;
         let file = scene.file.as_ref();
@@ -107,7 +92,7 @@ fn cells_and_cut(point: &Experiment, scene: &Scene) -> Result<(Triple, Triple), 
         return Err(("local_environments", message + "; expected a cell or more in each"));
     };
     let polygons = scene.geometry.polygons.len();
-    let cells = fixed.unwrap_or_else(|| automatic_cells(extents, polygons, Some(cut)));
+    let cells = fixed.unwrap_or_else(|| automatic_cells(extents, polygons, cut));
     if (0..3).any(|axis| cut.0[axis] > cells.0[axis]) {
         let message = format!("\"{cut}\" leaves local environments without a cell of {cells}");
         return Err(("cut", message + "; expected at most as many as cells along each axis"));

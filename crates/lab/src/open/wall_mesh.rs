@@ -10,9 +10,7 @@ use crate::files::counts::Pair;
 /// A mesh of virtual walls: the part of the settings that decides shots.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct WallMesh {
-    /// Wall patches along the two axes of an interface.
     pub patches: Pair,
-    /// Bins along each side of the square of directions.
     pub directions: u32,
     /// Rays a wall patch.
     pub rays: u32,

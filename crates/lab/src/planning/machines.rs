@@ -11,23 +11,18 @@ use crate::files::find::{FileKind, find};
 use crate::open::machine_file::MachineFile;
 use crate::planning::plan::Equipment;
 
-/// The machines of a sweep.
 #[derive(Default)]
 pub struct Machines {
     /// All of them, in the order in which points name them first.
     pub read: Vec<Equipment>,
     /// Indices into `read`, by what the experiment says of the machine.
     known: BTreeMap<String, usize>,
-    /// By path.
     files: BTreeMap<PathBuf, MachineFile>,
 }
 
 impl Machines {
     /// The index of the machine that an experiment in `folder` chooses; `fault` makes a fault at a place of that
     /// experiment.
-    ///
-    /// # Errors
-    /// What is wrong with the choice, or with the machine's file.
     pub fn find(
         &mut self,
         folder: &Path,
@@ -40,7 +35,7 @@ impl Machines {
         }
         let changes = choice.changes();
         let field = if changes.is_some() { "machine.extends" } else { "machine" };
-        let found = find(folder, FileKind::Machines, choice.name())
+        let found = find(folder, &FileKind::MACHINES, choice.name())
             .map_err(|message| fault(Place::of(field), message))?;
         let file = match self.files.get(&found.path) {
             Some(file) => file,

@@ -10,8 +10,7 @@ use virtwall::Problem;
 use crate::accuracy::answer::{Answer, DenseAnswers, Stored};
 use crate::accuracy::tuned::Tuned;
 use crate::experiment::fields::{Experiment, Plot};
-use crate::experiment::sweep::Axis;
-use crate::experiment::sweep::in_words;
+use crate::experiment::sweep::{Axis, in_words};
 use crate::files::digest::FileDigest;
 use crate::open::settings::Settings;
 use crate::table::column::{Column, Input};
@@ -25,25 +24,21 @@ pub struct Plan {
     /// The experiment's title.
     pub title: String,
     /// The experiment file with its arguments and every default filled in.
-    pub resolved: Value,
-    /// The swept fields.
-    pub axes: Vec<Axis>,
-    /// The runs, in the order of the results.
+    pub(crate) resolved: Value,
+    pub(crate) axes: Vec<Axis>,
+    /// In the order of the results.
     pub runs: Vec<Run>,
     /// Scenes, meshed and cut.
     pub problems: Vec<Prepared>,
-    /// Machines.
+    /// The machines of the runs.
     pub machines: Vec<Equipment>,
-    /// Stored references.
-    pub references: Vec<Stored>,
-    /// Published figures.
-    pub comparison: Comparison,
-    /// What to draw.
-    pub plots: Vec<Plot>,
+    pub(crate) references: Vec<Stored>,
+    pub(crate) comparison: Comparison,
+    pub(crate) plots: Vec<Plot>,
     /// What was corrected in the scenes.
     pub warnings: Vec<String>,
     /// All files read, each once, by label.
-    pub files: Vec<FileDigest>,
+    pub(crate) files: Vec<FileDigest>,
 }
 
 impl Plan {
@@ -59,22 +54,20 @@ impl Plan {
     pub fn label(&self, run: &Run) -> String {
         let plural = if run.point.processors == 1 { "" } else { "s" };
         let mut label = format!("{}, {} processor{plural}", run.point.scene, run.point.processors);
-        for (axis, &item) in self.axes.iter().zip(&run.index) {
-            let field = axis.place.to_string();
-            if !["scene", "processors"].contains(&field.as_str()) {
-                label += &format!(", {field} {}", in_words(&axis.values[item]));
+        for (field, value) in self.swept(run) {
+            if ![Place::of("scene"), Place::of("processors")].contains(field) {
+                label += &format!(", {field} {}", in_words(value));
             }
         }
         label
     }
 
     /// The columns of its results, without the swept fields.
-    pub fn columns(&self) -> Vec<&'static Column> {
+    pub(crate) fn columns(&self) -> Vec<&'static Column> {
         columns::shown(&self.runs.iter().map(|run| self.input(run)).collect::<Vec<_>>())
     }
 
-    /// What is known of a run before it starts.
-    pub fn input<'a>(&'a self, run: &'a Run) -> Input<'a> {
+    pub(crate) fn input<'a>(&'a self, run: &'a Run) -> Input<'a> {
         Input {
             point: &run.point,
             machine: &self.machines[run.machine].machine,
@@ -83,15 +76,16 @@ impl Plan {
         }
     }
 
-    /// The value that a run has of a swept field.
-    pub fn swept(&self, run: &Run, field: &str) -> Option<&Value> {
-        let mut axes = self.axes.iter().zip(&run.index);
-        let (axis, &item) = axes.find(|(axis, _)| axis.place.to_string() == field)?;
-        Some(&axis.values[item])
+    /// The swept fields, and the values that a run has of them.
+    pub(crate) fn swept<'a>(
+        &'a self,
+        run: &'a Run,
+    ) -> impl Iterator<Item = (&'a Place, &'a Value)> {
+        self.axes.iter().zip(&run.index).map(|(axis, &item)| (&axis.place, &axis.values[item]))
     }
 
     /// The answer that a run is compared with, if any: a stored one, or one of `dense`.
-    pub fn answer(&self, run: &Run, dense: &DenseAnswers) -> Option<Arc<Answer>> {
+    pub(crate) fn answer(&self, run: &Run, dense: &DenseAnswers) -> Option<Arc<Answer>> {
         run.point.reference.as_ref()?;
         Some(match run.stored {
             Some(stored) => Arc::clone(&self.references[stored].answer),
@@ -100,11 +94,9 @@ impl Plan {
     }
 }
 
-/// One run.
 pub struct Run {
     /// Which value of each axis it has.
     pub index: Vec<usize>,
-    /// Its settings as the file gives them.
     pub point: Experiment,
     /// Index into [`Plan::problems`].
     pub problem: usize,
@@ -118,11 +110,8 @@ pub struct Run {
 
 /// A scene, meshed and cut.
 pub struct Prepared {
-    /// How.
     pub settings: Settings,
-    /// The problem.
     pub problem: Arc<Problem>,
-    /// The scene's files.
     pub digests: Vec<FileDigest>,
     /// Bytes of its geometry and materials.
     pub scene_bytes: u64,
@@ -132,7 +121,6 @@ pub struct Prepared {
 
 /// A machine and the file it was read from.
 pub struct Equipment {
-    /// The machine.
     pub machine: Machine,
     /// Its file, and those that it extends.
     pub digests: Vec<FileDigest>,

@@ -108,7 +108,6 @@ struct Draft<'a> {
 type Loaded = (Scene, f64);
 
 impl Planner<'_> {
-    /// Makes the plan.
     fn plan(mut self) -> Result<Plan, Fault> {
         let name = self.name()?;
         let drafts = self.sweep.points.iter().map(|point| self.draft(point));
@@ -208,7 +207,7 @@ impl Planner<'_> {
         let stem = || self.scenes[draft.scene].path.file_stem().unwrap_or_default();
         let name =
             if name == answer::STORED { stem().to_string_lossy() } else { Cow::Borrowed(name) };
-        let found = find(self.folder, FileKind::References, &name).map_err(refuse)?;
+        let found = find(self.folder, &FileKind::REFERENCES, &name).map_err(refuse)?;
         let key = (found.path.clone(), draft.scene);
         if let Some(&known) = self.references.get(&key) {
             return Ok(Some(known));
@@ -224,7 +223,6 @@ impl Planner<'_> {
         self.document.fault(&self.sweep.place_in_file(point, Place::of(field)), message)
     }
 
-    /// The index of this point's machine.
     fn machine(&mut self, point: &Point, typed: &Experiment) -> Result<usize, Fault> {
         let Planner { document, sweep, folder, .. } = *self;
         self.machines.find(folder, &typed.machine, |place, message| {
@@ -232,9 +230,8 @@ impl Planner<'_> {
         })
     }
 
-    /// The index of this point's scene.
     fn scene(&mut self, point: &Point, typed: &Experiment) -> Result<usize, Fault> {
-        let found = find(self.folder, FileKind::Scenes, &typed.scene)
+        let found = find(self.folder, &FileKind::SCENES, &typed.scene)
             .map_err(|message| self.fault(point, "scene", message))?;
         if let Some(known) = self.scenes.iter().position(|scene| scene.path == found.path) {
             return Ok(known);

@@ -9,10 +9,6 @@ use crate::files::WrongField;
 /// Most local environments: more are taken for a mistake.
 const MOST_ENVIRONMENTS: u32 = 65_536;
 
-/// Refuses what the machine does not have.
-///
-/// # Errors
-/// The experiment's field at fault, and what is wrong with it.
 pub fn suits(typed: &Experiment, machine: &Machine) -> Result<(), WrongField> {
     let (processors, environments) = (typed.processors, typed.local_environments);
     if !(1..=MOST_ENVIRONMENTS).contains(&environments) {

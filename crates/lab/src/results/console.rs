@@ -9,7 +9,6 @@ use crate::table::runs_csv::Table;
 pub struct Line {
     /// What the lines of a group share: the scene, and the values of other swept fields.
     pub group: String,
-    /// Processors.
     pub processors: String,
     /// Simulated seconds and speed-up.
     pub simulated: [String; 2],

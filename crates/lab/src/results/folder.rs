@@ -84,9 +84,6 @@ impl Results {
 
     /// Writes all files of results, each whole, and then deletes the runs saved one by one,
     /// unless some have failed.
-    ///
-    /// # Errors
-    /// If a file cannot be written.
     pub fn write(&self, out: &Path) -> io::Result<()> {
         fs::create_dir_all(out)?;
         file::write(&out.join("runs.csv"), &self.table.to_csv()?)?;
@@ -99,9 +96,6 @@ impl Results {
     }
 
     /// Draws plots and report into a folder, with the host times in it; returns the names of the files.
-    ///
-    /// # Errors
-    /// If a file cannot be written.
     pub fn draw(&self, out: &Path) -> io::Result<Vec<String>> {
         let sweeps = self.sweeps();
         let mut names = Vec::new();
@@ -177,9 +171,6 @@ fn manifest(plan: &Plan, table: &Table, on: On) -> io::Result<Value> {
 }
 
 /// Writes host times, in a file of their own: results do not depend on them.
-///
-/// # Errors
-/// If the file cannot be written.
 pub fn write_host_times(
     out: &Path,
     endings: &Endings,

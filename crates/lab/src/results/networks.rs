@@ -5,17 +5,17 @@ use std::collections::BTreeMap;
 use multicomputer::NetworkModel;
 
 use crate::experiment::machine::NETWORK_MODEL;
-use crate::planning::plan::{Plan, Run, all_else};
+use crate::planning::plan::{Plan, all_else};
 use crate::run::runner::{Ending, Endings};
 
 /// The finest network model with a run, and the run's virtual seconds, by the values of all other swept
 /// fields.
 pub type Finest = BTreeMap<Vec<usize>, (NetworkModel, f64)>;
 
-/// The finest runs of a plan.
 pub fn finest(plan: &Plan, endings: &Endings) -> Finest {
     let mut finest = Finest::new();
-    for (run, model, time) in timed(plan, endings) {
+    for (run, ending) in plan.runs.iter().zip(&endings.runs) {
+        let Some((model, time)) = ending.as_ref().and_then(of) else { continue };
         let found = finest.entry(all_else(plan, run, NETWORK_MODEL)).or_insert((model, time));
         if model > found.0 {
             *found = (model, time);
@@ -24,17 +24,7 @@ pub fn finest(plan: &Plan, endings: &Endings) -> Finest {
     finest
 }
 
-/// Runs with figures of their network, with the model used and the time.
-fn timed<'a>(
-    plan: &'a Plan,
-    endings: &'a Endings,
-) -> impl Iterator<Item = (&'a Run, NetworkModel, f64)> + use<'a> {
-    plan.runs.iter().zip(&endings.runs).filter_map(|(run, ending)| {
-        let (model, time) = of(ending.as_ref()?)?;
-        Some((run, model, time))
-    })
-}
-
+/// The network model of a run that has figures of its network, and the run's virtual seconds.
 fn of(ending: &Ending) -> Option<(NetworkModel, f64)> {
     let figures = ending.as_ref().ok()?;
     let model = figures.network.as_ref()?.rung.parse().ok()?;

@@ -5,7 +5,6 @@
 pub struct PowerLaw {
     /// y at x = 1.
     pub factor: f64,
-    /// The exponent.
     pub exponent: f64,
     /// Standard error of the exponent; none of two points, which a line always meets.
     pub error: Option<f64>,
@@ -32,7 +31,6 @@ impl PowerLaw {
         Some(PowerLaw { factor: height.exp(), exponent, error })
     }
 
-    /// The law's y.
     pub fn at(&self, x: f64) -> f64 {
         self.factor * x.powf(self.exponent)
     }

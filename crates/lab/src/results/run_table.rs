@@ -45,7 +45,11 @@ pub fn run_table(plan: &Plan, endings: &Endings) -> Table {
         };
         let cell = |(name, column): (&String, &Option<&Column>)| match column {
             Some(column) => row.cell(column),
-            None => plan.swept(run, name).map_or(String::new(), in_words),
+            None => {
+                let mut swept = plan.swept(run);
+                let value = swept.find(|(field, _)| field.to_string() == *name);
+                value.map_or(String::new(), |(_, value)| in_words(value))
+            }
         };
         header.iter().zip(&cells).map(cell).collect()
     };
@@ -66,7 +70,6 @@ fn times_at_one(
     runs.filter_map(|(run, ending)| Some((all_else(plan, run, field), time(ending)?))).collect()
 }
 
-/// Virtual seconds of a run, if it has ended.
 fn time(ending: &Option<Ending>) -> Option<f64> {
     ending.as_ref()?.as_ref().ok()?.time_s
 }

@@ -27,7 +27,6 @@ pub struct Series {
 /// All that a plot shows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drawing {
-    /// Its lines, in the order of the results.
     pub series: Vec<Series>,
     /// Names along the horizontal axis, at 0, 1, 2, ..., if its column holds no numbers.
     pub categories: Vec<String>,
@@ -85,7 +84,6 @@ impl Drawing {
         drawing
     }
 
-    /// All points.
     pub fn points(&self) -> impl Iterator<Item = (f64, f64)> + Clone {
         self.series.iter().flat_map(|s| s.simulated.iter().chain(&s.paper).copied())
     }
@@ -115,7 +113,6 @@ fn name(table: &Table, row: &[String], sweeps: &[String], plot: &Plot) -> String
     cells.collect::<Vec<_>>().join(", ")
 }
 
-/// Whether a run is one of those that a plot marks.
 fn marked(table: &Table, row: &[String], plot: &Plot) -> bool {
     let same = |(name, value): (&String, _)| table.cell(row, name) == in_words(value);
     !plot.mark.is_empty() && plot.mark.iter().all(same)

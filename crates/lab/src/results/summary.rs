@@ -15,7 +15,6 @@ pub struct Summary {
 /// How far ratios are from 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spread {
-    /// How many there are.
     pub cells: usize,
     /// Their geometric mean, each ratio or its inverse, whichever is above 1.
     pub mean: f64,
@@ -26,7 +25,6 @@ pub struct Spread {
 }
 
 impl Summary {
-    /// Compares what the table has of both.
     pub fn of(table: &Table) -> Summary {
         let mut summary = Summary::default();
         let mut ratios = Vec::new();

@@ -29,7 +29,6 @@ pub struct Follower {
 }
 
 impl Follower {
-    /// A follower of one run, given by its index.
     pub fn new(run: usize, feed: Feed) -> Follower {
         Follower { run, feed, interval: Interval::new(BETWEEN_PARTS) }
     }

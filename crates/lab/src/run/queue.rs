@@ -17,7 +17,6 @@ pub struct Queue {
 struct Waiting {
     /// In reverse of the plan's order, to be taken from the end.
     runs: Vec<usize>,
-    /// Runs being worked on.
     active: usize,
     patches: usize,
     kept: Option<Arc<KeptShots>>,
@@ -25,16 +24,13 @@ struct Waiting {
 
 /// A run to be worked on.
 pub struct Task {
-    /// Index into [`Plan::runs`].
     pub run: usize,
-    /// Index into [`Plan::problems`].
     pub problem: usize,
     /// Shots kept from other runs of the same problem.
     pub kept: Arc<KeptShots>,
 }
 
 impl Queue {
-    /// A queue of the runs `waiting`.
     pub fn new(plan: &Plan, waiting: impl Iterator<Item = usize>) -> Queue {
         let empty = |patches| Waiting { runs: Vec::new(), active: 0, patches, kept: None };
         let mut problems: Vec<Waiting> =

@@ -164,7 +164,6 @@ struct Shared<'a> {
     saved: Saved,
     /// Key under which each run is saved.
     keys: Vec<String>,
-    /// Which runs are recorded for the report.
     recorded: Vec<bool>,
     memory: Arc<Memory>,
     helpers: Arc<Helpers>,
@@ -225,7 +224,6 @@ impl Shared<'_> {
         KeptShots::sharing(&self.memory, &self.helpers, archive)
     }
 
-    /// How all ended.
     fn endings(self) -> Endings {
         let (shots, shot_bytes) = (held(&self.queue).counts(), self.memory.most());
         let runs = self.runs.into_inner().unwrap_or_else(PoisonError::into_inner);

@@ -22,7 +22,6 @@ pub struct Saved {
 }
 
 impl Saved {
-    /// The finished runs in the folder of results `out`.
     pub fn in_folder(out: &Path) -> Saved {
         Saved { folder: out.join(".partial") }
     }
@@ -60,19 +59,11 @@ impl Saved {
         serde_json::from_str(&text).ok()
     }
 
-    /// Saves the figures and host times of a finished run.
-    ///
-    /// # Errors
-    /// If the folder or the file cannot be written.
     pub fn store(&self, key: &str, figures: &Figures, host: HostTimes) -> io::Result<()> {
         fs::create_dir_all(&self.folder)?;
         file::write(&self.path(key), &serde_json::to_vec(&(figures, host))?)
     }
 
-    /// Deletes all finished runs.
-    ///
-    /// # Errors
-    /// If the folder is there and cannot be removed.
     pub fn forget(&self) -> io::Result<()> {
         match fs::remove_dir_all(&self.folder) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),

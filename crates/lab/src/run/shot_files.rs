@@ -41,9 +41,6 @@ pub struct ShotFiles {
 
 impl ShotFiles {
     /// Uses a folder, which is made if there is none.
-    ///
-    /// # Errors
-    /// If it cannot be made or read.
     pub fn open(folder: &Path) -> io::Result<ShotFiles> {
         fs::create_dir_all(folder)?;
         fs::read_dir(folder)?;
@@ -99,12 +96,10 @@ struct Shots {
     own: Option<(usize, u64)>,
 }
 
-/// Where a record is.
 #[derive(Clone, Copy)]
 struct Place {
     file: usize,
     offset: u64,
-    /// Bytes of its code.
     length: u32,
 }
 

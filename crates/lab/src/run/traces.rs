@@ -21,9 +21,6 @@ pub struct Traces {
 
 impl Traces {
     /// Writes the trace of a run, by its index.
-    ///
-    /// # Errors
-    /// If the file cannot be written.
     pub fn write(&self, plan: &Plan, run: usize, recording: &Recording) -> io::Result<()> {
         let name = name(plan, run);
         let path = self.folder.join(format!("{name}.{}", self.format.extension()));

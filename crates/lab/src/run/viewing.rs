@@ -21,9 +21,6 @@ pub enum Viewing {
 
 impl Viewing {
     /// Makes sure that the rows asked for exist.
-    ///
-    /// # Errors
-    /// The first that does not.
     pub fn check(&self, plan: &Plan) -> Result<(), String> {
         let runs = plan.runs.len();
         let Viewing::Rows(rows) = self else { return Ok(()) };

@@ -12,7 +12,6 @@ const TARGETS: [f64; 4] = [0.1, 0.03, 0.01, 0.003];
 
 /// The cheapest run of a scene that reaches an error.
 pub struct Cheapest {
-    /// The scene.
     pub scene: String,
     /// The error to be reached, relative L2.
     pub target: f64,
@@ -22,11 +21,8 @@ pub struct Cheapest {
 
 /// A run, in words.
 pub struct Found {
-    /// Virtual seconds.
     pub time_s: f64,
-    /// Its error, relative L2.
     pub error: f64,
-    /// The values of the swept fields.
     pub setting: String,
 }
 
@@ -50,9 +46,6 @@ pub fn cheapest(table: &Table, sweeps: &[String]) -> Vec<Cheapest> {
 }
 
 /// Reads the runs.csv of a sweep, at a path relative to `folder`.
-///
-/// # Errors
-/// What is wrong with it.
 pub fn read_sweep(folder: &Path, name: &str) -> Result<(Table, FileDigest), String> {
     let path = named_from(folder, name)?;
     let bytes = file::read(&path).map_err(|fault| fault.to_string())?;
@@ -63,8 +56,7 @@ pub fn read_sweep(folder: &Path, name: &str) -> Result<(Table, FileDigest), Stri
             return Err(format!("\"{name}\" has no column \"{column}\"; expected one"));
         }
     }
-    let digest = FileDigest::of(&path, name).map_err(|fault| fault.to_string())?;
-    Ok((table, digest))
+    Ok((table, FileDigest::of_bytes(&bytes, name)))
 }
 
 /// The least time of a run of a scene that reaches an error, s.

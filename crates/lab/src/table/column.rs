@@ -12,7 +12,6 @@ use crate::table::comparison::Published;
 
 /// A column of runs.csv.
 pub struct Column {
-    /// Its name.
     pub name: &'static str,
     /// What it holds, and in which unit.
     pub about: &'static str,
@@ -24,11 +23,8 @@ pub struct Column {
 
 /// What is known of a run before it starts.
 pub struct Input<'a> {
-    /// Its point of the experiment.
     pub point: &'a Experiment,
-    /// Its machine.
     pub machine: &'a Machine,
-    /// Its scene, meshed and cut.
     pub problem: &'a Problem,
     /// The setting found for it, if it asks for an accuracy.
     pub tuned: Option<&'a Tuned>,
@@ -36,13 +32,10 @@ pub struct Input<'a> {
 
 /// All that the cells of a run are made of.
 pub struct Row<'a> {
-    /// What was known before.
     pub input: Input<'a>,
     /// Its figures; none if it failed or was not started.
     pub figures: Option<&'a Figures>,
-    /// Why it failed, if it did.
     pub failure: Option<&'a str>,
-    /// Published figures of its scene and number of processors.
     pub published: Published,
     /// Time on one processor, all else equal, over its time.
     pub speed_up: Option<f64>,
@@ -53,22 +46,18 @@ pub struct Row<'a> {
 }
 
 impl Row<'_> {
-    /// The cell of a column.
     pub fn cell(&self, column: &Column) -> String {
         (column.cell)(self).unwrap_or_default()
     }
 
-    /// Its figures of the network.
     pub fn network(&self) -> Option<&NetworkFigures> {
         self.figures?.network.as_ref()
     }
 
-    /// Its errors.
     pub fn errors(&self) -> Option<ErrorFigures> {
         self.figures?.errors
     }
 
-    /// The parts of its error.
     pub fn causes(&self) -> Option<Causes> {
         self.errors()?.causes
     }

@@ -14,9 +14,7 @@ pub struct Comparison(BTreeMap<(String, u32), Published>);
 /// What was published for one scene and number of processors; empty where nothing was.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Published {
-    /// Seconds.
     pub time_s: String,
-    /// Speed-up over one processor.
     pub speed_up: String,
 }
 
@@ -35,7 +33,6 @@ impl Comparison {
         })
     }
 
-    /// What was published for a scene and a number of processors.
     pub fn of(&self, scene: &str, processors: u32) -> Published {
         self.0.get(&(scene.to_owned(), processors)).cloned().unwrap_or_default()
     }
@@ -71,7 +68,6 @@ fn parse(text: &[u8]) -> Result<Comparison, Wrong> {
     Ok(Comparison(published))
 }
 
-/// Positions of the columns.
 fn find_columns(header: &csv::StringRecord) -> Result<[usize; 4], Wrong> {
     let mut found = [0; 4];
     for (found, name) in found.iter_mut().zip(COLUMNS) {

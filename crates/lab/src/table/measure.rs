@@ -11,7 +11,6 @@ impl<'a> Measure<'a> {
         Measure(text.split('*').map(str::trim).collect())
     }
 
-    /// The columns.
     pub fn columns(&self) -> &[&'a str] {
         &self.0
     }
