@@ -38,7 +38,7 @@ pub use host::host_memory::half_of_free_memory;
 pub use inspect::check::check;
 pub use inspect::stage::{Stage, StagedRun, Which};
 pub use inspect::trials::Trials;
-pub use open::open_machine::OpenMachine;
+pub use open::machine_file::MachineFile;
 pub use open::open_scene::OpenScene;
 pub use open::ray_bench::RayBench;
 pub use open::scene_file::scene_schema;

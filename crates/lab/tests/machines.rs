@@ -5,15 +5,15 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use lab::OpenMachine;
+use lab::MachineFile;
 use multicomputer::{Machine, ping_pong};
 
 fn machines() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines")
 }
 
-fn open(path: &Path) -> OpenMachine {
-    OpenMachine::load(&path.display().to_string()).unwrap()
+fn open(path: &Path) -> MachineFile {
+    MachineFile::open(&path.display().to_string()).unwrap()
 }
 
 /// Seconds that a message of `bytes` takes between neighbours.
@@ -66,7 +66,7 @@ fn extensions_that_lead_nowhere_are_refused() {
     let message = |text: &str| {
         let path = folder.path().join("m.json");
         fs::write(&path, text).unwrap();
-        let message = OpenMachine::load(&path.display().to_string()).err().unwrap().to_string();
+        let message = MachineFile::open(&path.display().to_string()).err().unwrap().to_string();
         message.replace(&format!("{}/", folder.path().display()), "")
     };
     let circle = message(r#"{ "extends": "m.json" }"#);

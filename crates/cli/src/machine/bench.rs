@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use desim::Time;
-use lab::{OpenMachine, Plot, Table};
+use lab::{MachineFile, Plot, Table};
 use multicomputer::{KernelError, Machine, Network, NetworkModel, exchange, hot_spot, ping_pong};
 
 use super::network::NetworkArgument;
@@ -33,7 +33,7 @@ pub struct Arguments {
 
 /// Measures; returns the table.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
-    let machine = OpenMachine::load(&arguments.machine)?.machine;
+    let machine = MachineFile::open(&arguments.machine)?.machine;
     let model = arguments.network.model(&machine);
     machine.network_on(model).map_err(Exit::bad_input)?;
     let most = if model == NetworkModel::Flit { LONGEST_OF_FLITS } else { u64::MAX };

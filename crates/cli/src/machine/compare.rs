@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use clap::Args;
 use desim::{Duration, Time};
-use lab::OpenMachine;
+use lab::MachineFile;
 use multicomputer::{
     Load, LogGpParameters, Machine, Measured, NetworkModel, NetworkParameters, Pattern,
     fluid_bound, replay,
@@ -40,7 +40,7 @@ pub struct Arguments {
 
 /// Compares; returns a table and the largest difference.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
-    let machine = OpenMachine::load(&arguments.machine)?.machine;
+    let machine = MachineFile::open(&arguments.machine)?.machine;
     machine.network_on(NetworkModel::Flit).map_err(Exit::bad_input)?;
     let mut text = format!("{}, messages of {} B\n", machine.title, arguments.bytes);
     text += "pattern        load  messages   wormhole us       flit us  difference\n";

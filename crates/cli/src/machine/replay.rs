@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use desim::Time;
-use lab::OpenMachine;
+use lab::MachineFile;
 use multicomputer::{ChannelUse, Machine, Network, ReplayedMessage, Trace, replay};
 
 use super::network::NetworkArgument;
@@ -32,7 +32,7 @@ pub struct Arguments {
 
 /// Sends the messages; returns when and how each of them arrived, as CSV.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
-    let machine = OpenMachine::load(&arguments.machine)?.machine;
+    let machine = MachineFile::open(&arguments.machine)?.machine;
     let file = arguments.trace.display().to_string();
     let text = config::read_text(&arguments.trace)?;
     let trace = Trace::from_json(&text, &file, machine.nodes()).map_err(Exit::bad_input)?;

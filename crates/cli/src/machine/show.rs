@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use clap::Args;
-use lab::OpenMachine;
+use lab::MachineFile;
 use multicomputer::{Machine, Shape};
 use serde_json::Value;
 
@@ -18,7 +18,7 @@ pub struct Arguments {
 
 /// Prints the machine.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
-    let open = OpenMachine::load(&arguments.machine)?;
+    let open = MachineFile::open(&arguments.machine)?;
     let model = open.machine.network_model.map_or("auto", |model| model.name());
     let mut text = format!("{}\n{}\n\n", open.machine.title, drawing(&open.machine));
     let _ = writeln!(text, "Network model: {model}. Numbers, from {}:\n", open.label);

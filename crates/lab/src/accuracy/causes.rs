@@ -10,9 +10,8 @@ use reference::Centres;
 use virtwall::{KeptShots, Problem};
 
 use crate::accuracy::answer::Answer;
-use crate::accuracy::errors::{ErrorMeasure, Radiosity};
+use crate::accuracy::errors::ErrorMeasure;
 use crate::engine::error_figures::Causes;
-use crate::engine::knobs;
 use crate::engine::simulator::{self, On};
 use crate::experiment::fields::{Experiment, Stop};
 use crate::files::quantity::Fraction;
@@ -33,7 +32,7 @@ impl Explained<'_> {
     /// The parts of the run's error, by way of the dense solution of its own mesh.
     pub fn causes(
         &self,
-        radiosity: &Radiosity,
+        radiosity: &[Vec<Rgb>],
         measure: &ErrorMeasure,
         dense: &Answer,
     ) -> Result<Causes, String> {
@@ -54,8 +53,9 @@ impl Explained<'_> {
             self.centres(dense).solve(),
             dense.radiosity.clone(),
         ];
-        let mut means: Vec<Vec<Rgb>> = steps.iter().map(|step| measure.means(step)).collect();
-        means.push(measure.radiosity().to_vec());
+        let mut means: Vec<Vec<Rgb>> =
+            steps.iter().map(|step| measure.overlaps.means(step)).collect();
+        means.push(measure.answer.radiosity.clone());
         let part = |step: usize| measure.between(&means[step], &means[step + 1]).relative_l2;
         Ok(Causes { stopping: part(0), directions: part(1), sampling: part(2), mesh: part(3) })
     }
@@ -72,7 +72,7 @@ impl Explained<'_> {
     /// The system of shooting from the run's own points with a ray in every direction.
     fn centres(&self, dense: &Answer) -> Centres {
         let space = &self.problem.space;
-        let split = knobs::shooting(self.point).split;
+        let split = simulator::shooting(self.point).split;
         let points = self.problem.environments.iter().flat_map(|environment| {
             (0..environment.patches.len() as u32).map(move |patch| {
                 let parts = split.parts(space, environment, patch);

@@ -9,13 +9,10 @@ use virtwall::Problem;
 use crate::accuracy::answer::Answer;
 use crate::engine::error_figures::ErrorFigures;
 
-/// Radiosities of a problem's patches, by environment.
-pub type Radiosity = [Vec<Rgb>];
-
 /// Measures errors against an answer: the answer, and the overlaps of its patches with a problem's.
 pub struct ErrorMeasure {
-    answer: Arc<Answer>,
-    overlaps: Overlaps,
+    pub answer: Arc<Answer>,
+    pub overlaps: Overlaps,
 }
 
 impl ErrorMeasure {
@@ -25,17 +22,6 @@ impl ErrorMeasure {
         ErrorMeasure { answer: Arc::clone(answer), overlaps }
     }
 
-    /// The answer's radiosities, on its own patches.
-    pub fn radiosity(&self) -> &[Rgb] {
-        &self.answer.radiosity
-    }
-
-    /// Means over the patches of the answer of a solution on those of the problem, one environment
-    /// after the other.
-    pub fn means(&self, radiosity: &[Rgb]) -> Vec<Rgb> {
-        self.overlaps.means(radiosity)
-    }
-
     /// How far two solutions, as means over the answer's patches, are apart.
     pub fn between(&self, one: &[Rgb], other: &[Rgb]) -> Difference {
         let Answer { patches, radiosity, .. } = &*self.answer;
@@ -43,8 +29,8 @@ impl ErrorMeasure {
     }
 
     /// How far a solution is from the answer.
-    pub fn errors(&self, radiosity: &Radiosity) -> ErrorFigures {
-        let found = self.between(&self.means(&radiosity.concat()), self.radiosity());
+    pub fn errors(&self, radiosity: &[Vec<Rgb>]) -> ErrorFigures {
+        let found = self.between(&self.overlaps.means(&radiosity.concat()), &self.answer.radiosity);
         ErrorFigures {
             l2: found.relative_l2,
             maximum: found.maximum,

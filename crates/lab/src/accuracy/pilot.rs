@@ -89,7 +89,8 @@ pub struct Pilots<'a> {
     brightest: f64,
     problems: RefCell<Vec<Prepared>>,
     runs: RefCell<Vec<Rc<Pilot>>>,
-    count: Cell<usize>,
+    /// Runs made so far.
+    pub count: Cell<usize>,
 }
 
 /// What pilots may use of the host.
@@ -208,11 +209,6 @@ impl<'a> Pilots<'a> {
         self.count.set(self.count.get() + 1);
         (self.host.watch)(self.count.get());
         Ok(pilot)
-    }
-
-    /// Runs made so far.
-    pub fn count(&self) -> usize {
-        self.count.get()
     }
 
     /// Radiosities of a run that stopped, with or without the ambient term, W/m².

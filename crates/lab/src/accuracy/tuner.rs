@@ -51,7 +51,7 @@ pub fn tune(pilots: &Pilots, target: f64) -> Result<Tuned, String> {
         search.attempt(family, &proposal)?;
     }
     let Search { best, least, .. } = search;
-    let tuned = best.map(|best| Tuned { pilots: pilots.count(), ..best });
+    let tuned = best.map(|best| Tuned { pilots: pilots.count.get(), ..best });
     tuned.ok_or_else(|| {
         format!("{target}; expected at least {least:.1e}, what pilot runs say can be reached here")
     })

@@ -9,7 +9,7 @@ use crate::engine::error_figures::ErrorFigures;
 use crate::engine::network::NetworkFigures;
 
 /// The figures of one run. Those in shares of time and of energy are from 0 to 1.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Figures {
     /// Virtual seconds until the last node knows of the end; none on real threads.
     pub time_s: Option<f64>,

@@ -11,16 +11,16 @@ use multicomputer::{Machine, MessageLayer};
 use radiosity::{Operation, Rgb};
 use serde::Serialize;
 use virtwall::{
-    Ending, Instant, KeptShots, Outcome, Problem, Rules, Run, RunError, SharedObserver,
-    StartUpStep, Thing,
+    Ending, Instant, KeptShots, Outcome, Problem, Rules, Run, RunError, SharedObserver, Shooting,
+    SourceSplit, StartUpStep, Thing,
 };
 
 use crate::engine::figures::{
     DisplayFigures, Energy, Figures, MessageLayerFigures, NodeMemoryFigures, StartUpFigures,
 };
-use crate::engine::knobs;
 use crate::engine::network;
 use crate::experiment::fields::Experiment;
+use crate::experiment::source_split::SplitFields;
 
 /// What the programs run on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
@@ -115,17 +115,21 @@ pub fn carry_out(
     };
     let (outcome, network, start_up) = outcome.map_err(|error: RunError| error.to_string())?;
     let start_up = start_up.as_ref().map(StartUpFigures::of);
-    let has_layer = on == On::Simulation && machine.message_layer != MessageLayer::default();
-    let message_layer = has_layer.then(|| MessageLayerFigures::of(&outcome.layer()));
-    let caches = on == On::Simulation && !machine.processor.caches.is_empty();
-    let missing_s = caches.then(|| outcome.missing().as_seconds_f64());
-    let translating_s = caches && machine.processor.translations.is_some();
-    let translating_s = translating_s.then(|| outcome.translating().as_seconds_f64());
-    let figures = figures(&run.problem, &outcome, on == On::Simulation);
     let counted = start_up.filter(|_| point.count_start_up).map_or(0.0, |s| s.start_up_s);
-    let time_s = figures.time_s.map(|time_s| time_s + counted);
-    let figures =
-        Figures { time_s, network, message_layer, start_up, missing_s, translating_s, ..figures };
+    let simulated = on == On::Simulation;
+    let has_layer = simulated && machine.message_layer != MessageLayer::default();
+    let has_caches = simulated && !machine.processor.caches.is_empty();
+    let translates = has_caches && machine.processor.translations.is_some();
+    let figures = figures(&run.problem, &outcome, simulated);
+    let figures = Figures {
+        time_s: figures.time_s.map(|time_s| time_s + counted),
+        network,
+        message_layer: has_layer.then(|| MessageLayerFigures::of(&outcome.layer())),
+        start_up,
+        missing_s: has_caches.then(|| outcome.missing().as_seconds_f64()),
+        translating_s: translates.then(|| outcome.translating().as_seconds_f64()),
+        ..figures
+    };
     Ok((figures, outcome.radiosity))
 }
 
@@ -253,15 +257,10 @@ fn figures(problem: &Problem, outcome: &Outcome, virtual_time: bool) -> Figures 
             Ending::TooEarly { lost } => Some(lost),
         },
         patches: problem.patches() as u64,
-        network: None,
         memory: NodeMemoryFigures::of(outcome),
-        message_layer: None,
-        errors: None,
         display: outcome.display.as_ref().map(DisplayFigures::of),
-        start_up: None,
-        missing_s: None,
-        translating_s: None,
         work: outcome.work.counts().map(|(op, n)| (op.name().to_owned(), n)).collect(),
+        ..Figures::default()
     }
 }
 
@@ -284,6 +283,16 @@ fn rules(point: &Experiment) -> Rules {
         merge_masks: point.merge_masks,
         mapping: point.mapping,
         seed: point.seed,
-        shooting: knobs::shooting(point),
+        shooting: shooting(point),
+    }
+}
+
+/// How patches are shot at a point of an experiment, where it goes beyond the paper.
+pub fn shooting(point: &Experiment) -> Shooting {
+    let SplitFields { most, nearer_than } = point.source_split;
+    Shooting {
+        split: SourceSplit { nearer_than: nearer_than.unwrap_or(f64::INFINITY), most },
+        overshoot: point.overshoot,
+        ambient: point.ambient,
     }
 }

@@ -49,7 +49,7 @@ pub struct Experiment {
     /// Whether time_s begins with the start-up, in place of the end of initialisation; the machine's file
     /// must model it. Results on such a machine have the columns start_up_s, reading_s and disk_wait_s.
     /// Paper: §4.2.1.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub count_start_up: bool,
     /// Compute nodes used, at most as many as there are local environments. Paper: Table 1.
     #[schemars(range(min = 1))]
@@ -84,10 +84,10 @@ pub struct Experiment {
     #[serde(default)]
     pub hemisphere: Hemisphere,
     /// What carries light across from one local environment to the next.
-    #[serde(default, skip_serializing_if = "Interfaces::are_masks")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub interfaces: Interfaces,
     /// How virtual walls are meshed, where they stand in place of masks.
-    #[serde(default, skip_serializing_if = "VirtualWalls::are_default")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub virtual_walls: VirtualWalls,
     /// Bits of an integer of a mask where the scene has media: 8 or 16, 16 by default. Choice C42: the paper
     /// has such masks in sight and says no more (§3.2).
@@ -95,7 +95,7 @@ pub struct Experiment {
     #[schemars(range(min = 8, max = 16))]
     pub mask_bits: Option<u32>,
     /// Number of sources that a patch is cut into, where other polygons are near.
-    #[serde(default, skip_serializing_if = "SplitFields::is_none")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub source_split: SplitFields,
     /// Over-shooting: energy that a patch without emission shoots, over its unshot energy, from 1 to less than
     /// 2. It shoots in advance what it is still to receive.
@@ -103,7 +103,7 @@ pub struct Experiment {
     pub overshoot: f64,
     /// Whether radiosities include the ambient term: an estimate of what the light that was not shot would add.
     /// It changes only their errors.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub ambient: bool,
     /// What radiosities are compared with: "dense", the dense solution of the run's own mesh; "stored",
     /// results/references/<scene>.json as `virtwall reference` stores it; the name of another one
@@ -113,7 +113,7 @@ pub struct Experiment {
     pub reference: Option<String>,
     /// Whether to find the parts of each run's error, by additional runs: columns error_stopping,
     /// error_directions, error_sampling and error_mesh. It needs a "reference".
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub error_causes: bool,
     /// The error that results are to stay below. Pilot runs find the cheapest setting for each scene; it is
     /// described in the columns from target_l2 on.
@@ -221,11 +221,11 @@ pub struct Plot {
     pub log_y: bool,
     /// Whether to draw, in place of lines from point to point, the power law fitted to a line's
     /// points, and to name its exponent. Both axes are logarithmic then.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub power_law: bool,
     /// Whether to draw, in place of lines from point to point, lines through those points only that no
     /// other betters in x and y at once. Both axes are logarithmic then.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub pareto: bool,
     /// Runs to be marked: for some columns the values that they have, such as
     /// {"hemisphere.pixels": 30976}.
@@ -253,11 +253,6 @@ impl Plot {
     }
 }
 
-/// Leaves out a field that is false, its default.
-pub fn is_false(value: &bool) -> bool {
-    !value
-}
-
 fn one() -> f64 {
     1.0
 }
@@ -279,7 +274,7 @@ fn yes() -> bool {
 }
 
 /// Leaves out a field that has its default.
-fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+pub fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
 

@@ -17,12 +17,6 @@ pub enum Interfaces {
     VirtualWalls,
 }
 
-impl Interfaces {
-    pub(crate) fn are_masks(&self) -> bool {
-        *self == Interfaces::Masks
-    }
-}
-
 /// How virtual walls are meshed. Where "interfaces" are "masks" it does not matter.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -51,11 +45,5 @@ impl Default for VirtualWalls {
             rays: None,
             threshold: Fraction::parse("0.01 %").expect("0.01 % is a fraction"),
         }
-    }
-}
-
-impl VirtualWalls {
-    pub(crate) fn are_default(&self) -> bool {
-        *self == VirtualWalls::default()
     }
 }

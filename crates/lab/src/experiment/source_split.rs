@@ -22,10 +22,3 @@ impl Default for SplitFields {
         SplitFields { most: 1, nearer_than: None }
     }
 }
-
-impl SplitFields {
-    /// Whether patches shoot from their centres.
-    pub fn is_none(&self) -> bool {
-        *self == SplitFields::default()
-    }
-}

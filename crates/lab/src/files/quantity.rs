@@ -21,7 +21,6 @@ pub struct FractionKind;
 
 impl Measure for FractionKind {
     const DIMENSION: Dimension = Dimension::Fraction;
-    const EXAMPLE: &'static str = "10 %";
     const RANGE: &'static str = "from 0 % to 100 %";
     fn allows(value: f64) -> bool {
         (0.0..=1.0).contains(&value)
@@ -47,7 +46,6 @@ pub struct AbsorptionKind;
 
 impl Measure for AbsorptionKind {
     const DIMENSION: Dimension = Dimension::PerLength;
-    const EXAMPLE: &'static str = "0.5 /m";
     const RANGE: &'static str = "from 0 /m to 1e9 /m";
     fn allows(value: f64) -> bool {
         (0.0..=1e9).contains(&value)

@@ -7,7 +7,7 @@ use multicomputer::Trace;
 
 use crate::engine::simulator;
 use crate::files::find::Found;
-use crate::open::open_machine::OpenMachine;
+use crate::open::machine_file::MachineFile;
 use crate::open::scene::Scene;
 use crate::planning::plan::Plan;
 use crate::planning::preparing::Preparing;
@@ -35,7 +35,7 @@ pub fn check(path: &Path) -> Result<String, Fault> {
         return scene(path, "a scene");
     }
     if has("processor") || has("network") || has("extends") {
-        let machine = OpenMachine::load(&path.display().to_string())?.machine;
+        let machine = MachineFile::open(&path.display().to_string())?.machine;
         let (compute, service) = (machine.compute_nodes(), machine.service_nodes());
         let what = format!("a machine, {compute} compute nodes and {service} service nodes");
         if machine.processor.cycles.is_empty() {

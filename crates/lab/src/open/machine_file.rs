@@ -12,19 +12,32 @@ use crate::files::find::{FileKind, Found, find};
 /// A longer row of machines that extend each other can only be a circle.
 const LONGEST_ROW: usize = 8;
 
-#[derive(Clone)]
+/// A machine, as its file and those that it extends describe it.
 pub struct MachineFile {
+    /// The machine.
     pub machine: Machine,
-    /// The whole machine as one file would say it.
+    /// What results call its file.
+    pub label: String,
+    /// What its file says, with what it extends.
     pub value: Value,
     /// The file, and then those that it extends.
-    pub digests: Vec<FileDigest>,
+    pub(crate) digests: Vec<FileDigest>,
 }
 
 impl MachineFile {
+    /// Reads the machine that a name, or a path to a machine file, means. Unlike an experiment's, it
+    /// need not price any operation.
+    ///
+    /// # Errors
+    /// What is wrong, and where.
+    pub fn open(name: &str) -> Result<MachineFile, Fault> {
+        let found = find(Path::new("."), &FileKind::MACHINES, name).map_err(Fault::complete)?;
+        MachineFile::load(&found)
+    }
+
     /// Reads a machine from its file, and what that says to extend from there. Each of these files
     /// must describe a machine by itself, so that a fault is always in the file that is named.
-    pub fn load(found: &Found) -> Result<MachineFile, Fault> {
+    pub(crate) fn load(found: &Found) -> Result<MachineFile, Fault> {
         MachineFile::within(found, LONGEST_ROW)
     }
 
@@ -41,29 +54,23 @@ impl MachineFile {
             let folder = found.path.parent().unwrap_or(Path::new(""));
             let base = find(folder, &FileKind::MACHINES, base).map_err(fault)?;
             let base = MachineFile::within(&base, longest - 1)?;
-            let changes = std::mem::replace(&mut document.value, base.value);
-            merge(&mut document.value, without_extends(changes));
+            let mut changes = std::mem::replace(&mut document.value, base.value);
+            changes.as_object_mut().and_then(|fields| fields.shift_remove("extends"));
+            merge(&mut document.value, changes);
             digests.extend(base.digests);
         }
         let machine = Machine::of(&document.value).map_err(|fault| document.locate(fault))?;
-        Ok(MachineFile { machine, value: document.value, digests })
+        Ok(MachineFile { machine, label: found.label.clone(), value: document.value, digests })
     }
-}
 
-impl MachineFile {
     /// The machine with an experiment's changes.
     ///
     /// # Errors
     /// What is wrong, and where in the machine. The caller adds the name of the file.
-    pub fn changed(&self, mut changes: Value) -> Result<Machine, Fault> {
+    pub(crate) fn changed(&self, mut changes: Value) -> Result<Machine, Fault> {
         with_source(&mut changes, "the experiment");
         let mut value = self.value.clone();
         merge(&mut value, changes);
         Machine::of(&value)
     }
-}
-
-fn without_extends(mut changes: Value) -> Value {
-    changes.as_object_mut().and_then(|fields| fields.shift_remove("extends"));
-    changes
 }

@@ -7,8 +7,7 @@ use virtwall::{CutScene, Problem, ProblemError, ProblemOptions};
 
 use crate::files::WrongField;
 use crate::host::host_clock::HostClock;
-use crate::open::settings::Settings;
-use crate::open::wall_mesh::WallMesh;
+use crate::open::settings::{Settings, WallMesh};
 
 /// Meshes and cuts a scene.
 pub fn problem(scene: &radiosity::Scene, settings: &Settings) -> Result<Arc<Problem>, WrongField> {

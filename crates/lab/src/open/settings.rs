@@ -3,13 +3,13 @@
 use radiosity::HemisphereKind;
 use serde::Serialize;
 
-use crate::experiment::fields::{Experiment, is_false};
+use crate::experiment::fields::{Experiment, is_default};
+use crate::experiment::interfaces::{Interfaces, VirtualWalls};
 use crate::experiment::refine::RefineFields;
 use crate::files::WrongField;
-use crate::files::counts::Triple;
+use crate::files::counts::{Pair, Triple};
 use crate::open::cut::{automatic_cells, automatic_cut};
 use crate::open::scene::Scene;
-use crate::open::wall_mesh::WallMesh;
 
 /// A patch of a bare OBJ file is at most this share of the scene's diagonal long.
 const BARE_PATCHES: f64 = 1.0 / 50.0;
@@ -39,8 +39,17 @@ pub struct Settings {
     pub virtual_walls: Option<WallMesh>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mask_bits: Option<u32>,
-    #[serde(skip_serializing_if = "is_false")]
+    #[serde(skip_serializing_if = "is_default")]
     pub by_place: bool,
+}
+
+/// A mesh of virtual walls: the part of the settings that decides shots.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct WallMesh {
+    pub patches: Pair,
+    pub directions: u32,
+    /// Rays a wall patch.
+    pub rays: u32,
 }
 
 impl Settings {
@@ -98,4 +107,23 @@ fn cells_and_cut(point: &Experiment, scene: &Scene) -> Result<(Triple, Triple), 
         return Err(("cut", message + "; expected at most as many as cells along each axis"));
     }
     Ok((cells, cut))
+}
+
+impl WallMesh {
+    /// The mesh of an experiment's virtual walls, if it has any.
+    ///
+    /// # Errors
+    /// A threshold that would let ever less energy go on for ever.
+    pub fn of(point: &Experiment) -> Result<Option<WallMesh>, WrongField> {
+        if point.interfaces == Interfaces::Masks {
+            return Ok(None);
+        }
+        let VirtualWalls { patches, directions, rays, threshold } = &point.virtual_walls;
+        if threshold.value() == 0.0 {
+            let message = "0 %; expected more: virtual walls hand on ever less, for ever";
+            return Err(("virtual_walls.threshold", message.to_owned()));
+        }
+        let rays = rays.unwrap_or(point.hemisphere.pixels);
+        Ok(Some(WallMesh { patches: *patches, directions: *directions, rays }))
+    }
 }

@@ -170,7 +170,10 @@ impl Planner<'_> {
         let typed: Experiment = read(&point.value).map_err(|fault| {
             self.document.fault(&self.sweep.place_in_file(point, fault.place), fault.message)
         })?;
-        let machine = self.machine(point, &typed)?;
+        let Planner { document, sweep, folder, .. } = *self;
+        let machine = self.machines.find(folder, &typed.machine, |place, message| {
+            document.fault(&sweep.place_in_file(point, place), message)
+        })?;
         suits(&typed, &self.machines.read[machine].machine)
             .map_err(|(field, message)| self.fault(point, field, message))?;
         let scene = self.scene(point, &typed)?;
@@ -221,13 +224,6 @@ impl Planner<'_> {
     /// A fault of a field at one point of the sweep.
     fn fault(&self, point: &Point, field: &str, message: String) -> Fault {
         self.document.fault(&self.sweep.place_in_file(point, Place::of(field)), message)
-    }
-
-    fn machine(&mut self, point: &Point, typed: &Experiment) -> Result<usize, Fault> {
-        let Planner { document, sweep, folder, .. } = *self;
-        self.machines.find(folder, &typed.machine, |place, message| {
-            document.fault(&sweep.place_in_file(point, place), message)
-        })
     }
 
     fn scene(&mut self, point: &Point, typed: &Experiment) -> Result<usize, Fault> {
@@ -305,14 +301,10 @@ impl Planner<'_> {
         let host = Host { memory, threads, watch: &watch };
         let pilots = Pilots::new(experiment, &settings, &scene.geometry, machine, host);
         let pilots = pilots.map_err(refuse)?;
-        let tuned =
-            tune(&pilots, target).map_err(|message| refuse(("accuracy.relative_l2", message)))?;
-        Ok((
-            pilots
-                .point(&tuned.knobs)
-                .map_err(|message| refuse(("accuracy.relative_l2", message)))?,
-            Tuned { sweep_time_s, ..tuned },
-        ))
+        let out_of_reach = |message| refuse(("accuracy.relative_l2", message));
+        let tuned = tune(&pilots, target).map_err(out_of_reach)?;
+        let point = pilots.point(&tuned.knobs).map_err(out_of_reach)?;
+        Ok((point, Tuned { sweep_time_s, ..tuned }))
     }
 
     /// Reads all scenes, each once.

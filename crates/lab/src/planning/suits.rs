@@ -1,10 +1,14 @@
-//! Checks that a machine has what an experiment needs.
+//! Checks the values of an experiment, and that a machine has what they need.
 
 use multicomputer::Machine;
 
-use crate::engine::knobs;
 use crate::experiment::fields::Experiment;
+use crate::experiment::refine::MOST_HALVINGS;
+use crate::experiment::source_split::SplitFields;
 use crate::files::WrongField;
+
+/// The parts that a patch may be cut into along a direction.
+const MOST_PARTS: u32 = 64;
 
 /// Most local environments: more are taken for a mistake.
 const MOST_ENVIRONMENTS: u32 = 65_536;
@@ -35,5 +39,29 @@ pub fn suits(typed: &Experiment, machine: &Machine) -> Result<(), WrongField> {
         let message = message + "; expected a machine whose file has \"start_up\"";
         return Err(("count_start_up", message));
     }
-    knobs::check(typed)
+    let SplitFields { most, nearer_than } = typed.source_split;
+    if !(1..=MOST_PARTS).contains(&most) {
+        return Err(("source_split.most", format!("{most}; expected 1 to {MOST_PARTS}")));
+    }
+    if let Some(edges) = nearer_than.filter(|edges| !(edges.is_finite() && *edges > 0.0)) {
+        return Err(("source_split.nearer_than", format!("{edges}; expected more than 0")));
+    }
+    if !(1.0..2.0).contains(&typed.overshoot) {
+        let message = format!("{}; expected from 1 to less than 2", typed.overshoot);
+        return Err(("overshoot", message));
+    }
+    if let Some(error) = typed.refine.relative_l2.filter(|error| !(*error > 0.0 && *error < 1.0)) {
+        return Err(("refine.relative_l2", format!("{error}; expected more than 0, less than 1")));
+    }
+    if !(1..=MOST_HALVINGS).contains(&typed.refine.most_halvings) {
+        let message = format!("{}; expected 1 to {MOST_HALVINGS}", typed.refine.most_halvings);
+        return Err(("refine.most_halvings", message));
+    }
+    if let Some(least) = typed.hemisphere.least_pixels
+        && !(1..=typed.hemisphere.pixels).contains(&least)
+    {
+        let message = format!("{least}; expected 1 to {}, the pixels", typed.hemisphere.pixels);
+        return Err(("hemisphere.least_pixels", message));
+    }
+    Ok(())
 }

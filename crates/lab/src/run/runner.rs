@@ -13,7 +13,7 @@ use virtwall::{Helpers, KeptShots, Memory, Observers, Recording, SharedObserver,
 
 use crate::accuracy::answer::DenseAnswers;
 use crate::accuracy::causes::Explained;
-use crate::accuracy::errors::{ErrorMeasure, Radiosity};
+use crate::accuracy::errors::ErrorMeasure;
 use crate::engine::error_figures::ErrorFigures;
 use crate::engine::figures::Figures;
 use crate::engine::network;
@@ -90,6 +90,7 @@ pub type Ending = Result<Figures, String>;
 type Ended = Result<(Figures, Vec<Vec<Rgb>>), String>;
 
 /// How all runs ended.
+#[derive(Default)]
 pub struct Endings {
     /// In the plan's order; none for a run that was not started.
     pub runs: Vec<Option<Ending>>,
@@ -138,9 +139,12 @@ pub fn carry_out(plan: &Plan, out: &Path, options: &Options, watch: Watch) -> io
         memory: Arc::new(Memory::new(options.memory)),
         helpers: Arc::new(Helpers::of(threads)),
         queue,
-        runs: Mutex::new(found),
-        host: Mutex::new(host),
-        recordings: Mutex::new(plan.runs.iter().map(|_| None).collect()),
+        endings: Mutex::new(Endings {
+            runs: found,
+            host,
+            recordings: plan.runs.iter().map(|_| None).collect(),
+            ..Endings::default()
+        }),
         dense: DenseAnswers::default(),
         trouble: Mutex::new(None),
     };
@@ -168,9 +172,7 @@ struct Shared<'a> {
     memory: Arc<Memory>,
     helpers: Arc<Helpers>,
     queue: Mutex<Queue>,
-    runs: Mutex<Vec<Option<Ending>>>,
-    host: Mutex<Vec<Option<HostTimes>>>,
-    recordings: Mutex<Vec<Option<LightRecording>>>,
+    endings: Mutex<Endings>,
     dense: DenseAnswers,
     trouble: Mutex<Option<io::Error>>,
 }
@@ -190,7 +192,7 @@ impl Shared<'_> {
                 clock_s: clock.seconds(),
             };
             let run = task.run;
-            let found = held(&self.runs)[run].is_some();
+            let found = held(&self.endings).runs[run].is_some();
             let noted = if found { Ok(()) } else { self.note(&task, ended, host) };
             if let Err(error) = traced.and(noted) {
                 *held(&self.trouble) = Some(error);
@@ -212,8 +214,9 @@ impl Shared<'_> {
             Ok(figures) => self.saved.store(&self.keys[run], figures, host),
             Err(_) => Ok(()),
         };
-        held(&self.runs)[run] = Some(ending);
-        held(&self.host)[run] = Some(host);
+        let mut endings = held(&self.endings);
+        endings.runs[run] = Some(ending);
+        endings.host[run] = Some(host);
         stored
     }
 
@@ -226,14 +229,12 @@ impl Shared<'_> {
 
     fn endings(self) -> Endings {
         let (shots, shot_bytes) = (held(&self.queue).counts(), self.memory.most());
-        let runs = self.runs.into_inner().unwrap_or_else(PoisonError::into_inner);
-        let host = self.host.into_inner().unwrap_or_else(PoisonError::into_inner);
-        let recordings = self.recordings.into_inner().unwrap_or_else(PoisonError::into_inner);
-        Endings { runs, host, shots, shot_bytes, recordings, dense: self.dense }
+        let endings = self.endings.into_inner().unwrap_or_else(PoisonError::into_inner);
+        Endings { shots, shot_bytes, dense: self.dense, ..endings }
     }
 
     /// The error of a run against its answer, if there is one. Its host time does not count as the run's.
-    fn errors(&self, task: &Task, radiosity: &Radiosity) -> Result<Option<ErrorFigures>, String> {
+    fn errors(&self, task: &Task, radiosity: &[Vec<Rgb>]) -> Result<Option<ErrorFigures>, String> {
         let run = &self.plan.runs[task.run];
         let Some(answer) = self.plan.answer(run, &self.dense) else { return Ok(None) };
         let problem = &self.plan.problems[run.problem].problem;
@@ -294,7 +295,7 @@ impl Shared<'_> {
                 (Some(traces), Some(recording)) => traces.write(self.plan, task.run, recording),
                 _ => Ok(()),
             };
-        held(&self.recordings)[task.run] = light.filter(|_| ended.is_ok());
+        held(&self.endings).recordings[task.run] = light.filter(|_| ended.is_ok());
         (ended, traced)
     }
 

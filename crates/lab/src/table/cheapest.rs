@@ -29,14 +29,13 @@ pub struct Found {
 /// For each scene and each error the cheapest run; nothing unless runs of a scene differ in their
 /// errors.
 pub fn cheapest(table: &Table, sweeps: &[String]) -> Vec<Cheapest> {
-    let mut scenes: Vec<&str> = table.rows.iter().map(|row| table.cell(row, "scene")).collect();
-    let mut seen = Vec::new();
-    scenes.retain(|scene| {
-        !seen.contains(scene) && {
-            seen.push(*scene);
-            true
+    let mut scenes = Vec::new();
+    for row in &table.rows {
+        let scene = table.cell(row, "scene");
+        if !scenes.contains(&scene) {
+            scenes.push(scene);
         }
-    });
+    }
     let swept = sweeps.iter().any(|name| name != "scene");
     if !swept || !table.rows.iter().any(|row| table.number(row, "error_l2").is_some()) {
         return Vec::new();
