@@ -26,10 +26,7 @@ pub struct Document {
 }
 
 impl Document {
-    /// Reads a file.
-    ///
-    /// # Errors
-    /// If it cannot be read, is not JSON, or names a key of an object twice.
+    /// Reads a file: [`read_text`], [`Document::parse`].
     pub fn read(path: &Path) -> Result<Document, Fault> {
         Document::parse(path.display(), read_text(path)?)
     }
@@ -40,10 +37,8 @@ impl Document {
     /// If the text is not JSON, or names a key of an object twice.
     pub fn parse(file: impl Display, text: String) -> Result<Document, Fault> {
         let file = file.to_string();
-        match json::parse(&text) {
-            Ok(value) => Ok(Document { file, value, text, arguments: Vec::new() }),
-            Err(fault) => Err(Fault { file, ..fault }),
-        }
+        let value = json::parse(&text).map_err(|fault| Fault { file: file.clone(), ..fault })?;
+        Ok(Document { file, value, text, arguments: Vec::new() })
     }
 
     /// Lays `path=value` over the file: `path` is dotted keys, `value` JSON or bare text.

@@ -34,7 +34,6 @@ pub struct Answer {
     pub error: f64,
 }
 
-/// A stored reference and the file that it was read from.
 pub struct Stored {
     pub answer: Arc<Answer>,
     pub digest: FileDigest,
@@ -70,7 +69,7 @@ impl Stored {
         }
         let radiosity = stored.radiosity.iter().map(|&colours| Rgb::from(colours)).collect();
         let answer = Arc::new(Answer { patches, radiosity, error: stored.relative_l2_error });
-        Ok(Stored { answer, digest: FileDigest::of_bytes(&bytes, &found.label) })
+        Ok(Stored { answer, digest: FileDigest::of(&bytes, &found.label) })
     }
 }
 

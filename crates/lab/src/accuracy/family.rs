@@ -22,13 +22,11 @@ const MOST_PIXELS: u32 = 1 << 17;
 const FIRST_STEPS: usize = 6;
 const MOST_STEPS: usize = 48;
 
-/// Over-shooting factors that are tried.
 const OVERSHOOTS: [f64; 2] = [1.0, 1.3];
 
 /// Sources a patch, along each direction, that are tried.
 const SPLITS: [u32; 6] = [1, 2, 3, 4, 6, 8];
 
-/// Settings on one mesh.
 #[derive(Clone)]
 pub struct Family {
     /// Edge of a patch over that of the experiment or the scene.

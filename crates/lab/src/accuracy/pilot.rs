@@ -161,9 +161,6 @@ impl<'a> Pilots<'a> {
     }
 
     /// The experiment with its knobs set.
-    ///
-    /// # Errors
-    /// If there is no such mesh or hemisphere.
     pub fn point(&self, knobs: &Knobs) -> Result<Experiment, String> {
         let share = self.share(knobs)?;
         let length = |metres: f64| Length::parse(&format!("{metres} m")).ok();
@@ -184,9 +181,6 @@ impl<'a> Pilots<'a> {
 
     /// The run of a setting, down to the threshold of a step at least; the knobs' own, and whether they
     /// ask for the ambient term, do not matter.
-    ///
-    /// # Errors
-    /// Why it could not be made, or did not end.
     pub fn run(&self, knobs: &Knobs, steps: usize) -> Result<Rc<Pilot>, String> {
         let knobs = Knobs { threshold: threshold(steps), ambient: false, ..*knobs };
         let known = self.runs.borrow().iter().position(|pilot| pilot.knobs.casts_as(&knobs));

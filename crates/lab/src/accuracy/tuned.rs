@@ -3,7 +3,6 @@
 use crate::accuracy::pilot::Knobs;
 use crate::engine::error_figures::Causes;
 
-/// A setting that was found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tuned {
     pub target: f64,
@@ -22,7 +21,6 @@ pub struct Tuned {
 }
 
 impl Tuned {
-    /// A sentence that says what was chosen for a scene and why.
     pub fn sentence(&self, scene: &str) -> String {
         let percent = |share: f64| format!("{:.2} %", 100.0 * share);
         let causes =

@@ -118,20 +118,17 @@ impl Search<'_> {
                 self.least = self.least.min(surely.max(0.0).sqrt());
                 let cheaper = self.best.is_none_or(|best| stop.time_s < best.time_s);
                 if surely <= squared && cheaper {
-                    let Proposal { knobs, causes, .. } = setting;
-                    let (error, time_s) = (said.error(), stop.time_s);
-                    // The square's standard error, as one of the error itself.
-                    let deviation = said.deviation / (2.0 * error.max(f64::MIN_POSITIVE));
-                    let (predicted, sweep_time_s, pilots) = (causes, None, 0);
+                    let error = said.error();
                     self.best = Some(Tuned {
                         target,
-                        knobs,
+                        knobs: setting.knobs,
                         error,
-                        deviation,
-                        predicted,
-                        time_s,
-                        sweep_time_s,
-                        pilots,
+                        // The square's standard error, as one of the error itself.
+                        deviation: said.deviation / (2.0 * error.max(f64::MIN_POSITIVE)),
+                        predicted: setting.causes,
+                        time_s: stop.time_s,
+                        sweep_time_s: None,
+                        pilots: 0,
                     });
                 }
             }

@@ -51,7 +51,6 @@ pub struct Energy {
     pub medium: f64,
 }
 
-/// Figures of the nodes' memory.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NodeMemoryFigures {
     pub high_water: u64,
@@ -59,7 +58,6 @@ pub struct NodeMemoryFigures {
 }
 
 impl NodeMemoryFigures {
-    /// The figures of a run on a machine whose memory is modelled.
     pub fn of(outcome: &Outcome) -> Option<NodeMemoryFigures> {
         let high_water = outcome.nodes.iter().filter_map(|node| node.memory_high_water).max()?;
         let paging: desim::Duration = outcome.nodes.iter().map(|node| node.paging).sum();
@@ -80,7 +78,6 @@ pub struct MessageLayerFigures {
 }
 
 impl MessageLayerFigures {
-    /// The figures of an account.
     pub fn of(account: &LayerAccount) -> MessageLayerFigures {
         MessageLayerFigures {
             packing_s: account.packing.as_seconds_f64(),
@@ -94,7 +91,6 @@ impl MessageLayerFigures {
     }
 }
 
-/// Figures of the display.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DisplayFigures {
     pub lag_s: f64,
@@ -107,7 +103,6 @@ pub struct DisplayFigures {
 }
 
 impl DisplayFigures {
-    /// The figures of a report.
     pub fn of(report: &DisplayReport) -> DisplayFigures {
         DisplayFigures {
             lag_s: report.lag.as_seconds_f64(),
@@ -130,7 +125,6 @@ pub struct StartUpFigures {
 }
 
 impl StartUpFigures {
-    /// The figures of a report.
     pub fn of(report: &StartUpReport) -> StartUpFigures {
         StartUpFigures {
             start_up_s: report.time.as_seconds_f64(),

@@ -20,7 +20,7 @@ pub struct NetworkFigures {
 
 /// Whether results have figures of the network: if an experiment chooses the model, or leaves it open.
 pub fn tells(machine: &Machine, point: &Experiment) -> bool {
-    point.machine.chooses_network_model() || machine.network_model.is_none()
+    point.machine.chooses_network_model() || is_open(machine)
 }
 
 /// Whether the model is chosen by simulating runs. Observing a run then takes one more simulation.
@@ -66,13 +66,11 @@ pub fn simulate(
 
 /// The network model of a run. If the machine leaves it open, a simulation chooses it.
 pub fn rung(run: &Run, machine: &Machine, point: &Experiment) -> Result<NetworkModel, RunError> {
-    match machine.network_model {
-        Some(model) => Ok(model),
-        None => {
-            let (_, figures) = simulate(run, machine, point, None)?;
-            Ok(figures.and_then(|figures| figures.rung.parse().ok()).unwrap_or(NetworkModel::LogGp))
-        }
+    if let Some(model) = machine.network_model {
+        return Ok(model);
     }
+    let (_, figures) = simulate(run, machine, point, None)?;
+    Ok(figures.and_then(|figures| figures.rung.parse().ok()).unwrap_or(NetworkModel::LogGp))
 }
 
 fn figures(machine: &Machine, chosen: &AutoResult<Outcome>) -> NetworkFigures {

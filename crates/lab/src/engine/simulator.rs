@@ -33,7 +33,6 @@ pub enum On {
     Threads,
 }
 
-/// Names of the operations that runs count.
 pub fn operations() -> impl Iterator<Item = &'static str> {
     Operation::ALL.iter().map(|operation| operation.name())
 }
@@ -44,8 +43,7 @@ pub fn operations() -> impl Iterator<Item = &'static str> {
 /// # Errors
 /// What is missing or unknown, and where. The caller adds the name of the file.
 pub fn check_machine(machine: &Machine) -> Result<(), Fault> {
-    let operations = Operation::ALL.iter().map(|operation| operation.name());
-    all_of("operations", "processor.operations", operations, &machine.processor.cycles)?;
+    all_of("operations", "processor.operations", operations(), &machine.processor.cycles)?;
     if let Some(memory) = &machine.node_memory {
         let things = Thing::ALL.iter().map(|thing| thing.name());
         all_of("sizes", "node_memory.sizes", things, &memory.sizes)?;
@@ -69,13 +67,11 @@ fn all_of<V>(
         let message = unknown("field", name, &names);
         return Err(Fault::at(Place::of(place).key(name), message));
     }
-    match names.iter().find(|name| !map.contains_key(*name)) {
-        None => Ok(()),
-        Some(name) => {
-            let message = format!("\"{name}\" is missing; expected {what}: {}", names.join(", "));
-            Err(Fault::at(Place::of(place), message))
-        }
+    if let Some(name) = names.iter().find(|name| !map.contains_key(*name)) {
+        let message = format!("\"{name}\" is missing; expected {what}: {}", names.join(", "));
+        return Err(Fault::at(Place::of(place), message));
     }
+    Ok(())
 }
 
 /// The run of a problem at one point of an experiment; `on_shot` is called after every shot.
@@ -205,7 +201,6 @@ pub fn stops(
     Ok(stops.take())
 }
 
-/// Limit on the shots of [`solved`].
 const MOST_SHOTS: u64 = 5_000;
 
 /// The light in a problem of one environment when less than the share `unshot` is unshot, or after
@@ -221,7 +216,6 @@ pub fn solved(problem: &Problem, unshot: f64) -> (Light, f64) {
     (vec![radiosity], if emitted > 0.0 { left / emitted } else { 0.0 })
 }
 
-/// Carries out a run on the simulated `machine`; returns its whole outcome.
 pub fn outcome(run: &Run, point: &Experiment, machine: &Machine) -> Result<Outcome, String> {
     let simulated = network::simulate(run, machine, point, None);
     simulated.map(|(outcome, _)| outcome).map_err(|error| error.to_string())

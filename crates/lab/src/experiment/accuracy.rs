@@ -41,9 +41,7 @@ impl AccuracyFields {
             experiment.pointer(&pointer).is_some()
         };
         let message = "is set together with \"accuracy\", which finds it; expected one of the two";
-        match REPLACED.into_iter().find(set) {
-            None => Ok(()),
-            Some(field) => Err((field, message.to_owned())),
-        }
+        let replaced = REPLACED.into_iter().find(set);
+        replaced.map_or(Ok(()), |field| Err((field, message.to_owned())))
     }
 }

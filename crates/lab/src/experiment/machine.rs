@@ -36,7 +36,6 @@ impl MachineChoice {
         Some(changes)
     }
 
-    /// Whether the experiment chooses the model of the network.
     pub fn chooses_network_model(&self) -> bool {
         self.0.pointer("/network/model").is_some()
     }

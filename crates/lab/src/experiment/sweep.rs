@@ -8,10 +8,8 @@ use crate::experiment::fields::UNSWEPT;
 /// Largest number of runs of an experiment; more is taken for a mistake.
 const MOST_RUNS: usize = 100_000;
 
-/// A swept field.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// Place of its list in the file.
     pub place: Place,
     pub values: Vec<Value>,
 }

@@ -7,7 +7,6 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Deserializer, Error};
 use serde::{Deserialize, Serialize, Serializer};
 
-/// Some counts, one an axis, as text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Counts<const N: usize>(pub [u32; N]);
 
@@ -22,9 +21,6 @@ impl<const N: usize> Counts<N> {
     const NUMBER: &str = if N == 3 { "three" } else { "two" };
 
     /// Reads text such as "14x4x1".
-    ///
-    /// # Errors
-    /// If the text is not `N` whole numbers, 1 to 4096 each.
     pub fn parse(text: &str) -> Result<Counts<N>, String> {
         let counts: Option<Vec<u32>> = text.split('x').map(|n| n.trim().parse().ok()).collect();
         counts

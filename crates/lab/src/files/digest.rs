@@ -1,23 +1,12 @@
 //! Digests, by which results name the files that they come from.
 
-use std::fmt::Write;
-use std::path::Path;
-
-use config::Fault;
 use sha2::{Digest, Sha256};
-
-use crate::files::file;
 
 /// SHA-256 of some bytes, in hexadecimal.
 pub fn sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().fold(String::new(), |mut text, byte| {
-        // Writing to a string cannot fail.
-        let _ = write!(text, "{byte:02x}");
-        text
-    })
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// A file and the digest of what it says.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct FileDigest {
     /// What results call the file.
@@ -26,11 +15,8 @@ pub struct FileDigest {
 }
 
 impl FileDigest {
-    pub fn of(path: &Path, label: &str) -> Result<FileDigest, Fault> {
-        Ok(FileDigest::of_bytes(&file::read(path)?, label))
-    }
-
-    pub fn of_bytes(bytes: &[u8], label: &str) -> FileDigest {
+    /// The digest of a file's bytes; results call the file `label`.
+    pub fn of(bytes: &[u8], label: &str) -> FileDigest {
         FileDigest { label: label.replace('\\', "/"), sha256: sha256(bytes) }
     }
 }

@@ -5,7 +5,6 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
-/// What a plain name is, for messages.
 pub const PLAIN: &str = "letters, digits, \"-\", \"_\" and \".\", the first one no \".\"";
 
 /// Whether a name is one file in the folder where it is put, and no hidden one.

@@ -3,7 +3,6 @@
 use config::unknown;
 use std::path::{Path, PathBuf};
 
-/// A kind of files that go by their names.
 pub struct FileKind {
     noun: &'static str,
     /// Its folder, beside that of the file that names it.
@@ -16,7 +15,6 @@ impl FileKind {
     pub const REFERENCES: FileKind = FileKind { noun: "reference", folder: "results/references" };
 }
 
-/// A file that a name or a path leads to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
     pub path: PathBuf,

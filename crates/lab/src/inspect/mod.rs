@@ -1,9 +1,5 @@
 //! Looks at single files, scenes and runs, without a folder of results.
-//!
-//! - [`check`]: What a file is, and whether it is valid.
-//! - [`stage`]: A scene with its light, to be drawn.
-//! - [`trials`]: Single runs of an experiment.
 
-pub mod check;
-pub mod stage;
-pub mod trials;
+pub mod check; // What a file is, and whether it is valid.
+pub mod stage; // A scene with its light, to be drawn.
+pub mod trials; // Single runs of an experiment.

@@ -27,9 +27,6 @@ pub struct MachineFile {
 impl MachineFile {
     /// Reads the machine that a name, or a path to a machine file, means. Unlike an experiment's, it
     /// need not price any operation.
-    ///
-    /// # Errors
-    /// What is wrong, and where.
     pub fn open(name: &str) -> Result<MachineFile, Fault> {
         let found = find(Path::new("."), &FileKind::MACHINES, name).map_err(Fault::complete)?;
         MachineFile::load(&found)
@@ -44,7 +41,7 @@ impl MachineFile {
     /// The same, for a row of at most `longest` files.
     fn within(found: &Found, longest: usize) -> Result<MachineFile, Fault> {
         let text = read_text(&found.path)?;
-        let mut digests = vec![FileDigest::of_bytes(text.as_bytes(), &found.label)];
+        let mut digests = vec![FileDigest::of(text.as_bytes(), &found.label)];
         let mut document = Document::parse(&found.label, text)?;
         if let Some(Value::String(base)) = document.value.get("extends") {
             let fault = |message| document.fault(&Place::of("extends"), message);

@@ -25,9 +25,6 @@ pub struct RayBench {
 
 impl RayBench {
     /// Rays from `sources` points that `seed` draws, `rays` from each.
-    ///
-    /// # Errors
-    /// If a hemisphere cannot have this number of rays.
     pub fn new(
         open: OpenScene,
         sources: u32,

@@ -4,7 +4,7 @@ use std::cell::{Cell, RefCell};
 use std::path::Path;
 use std::{fs, io};
 
-use config::{Document, Fault, Place};
+use config::{Document, Fault, Place, read_text};
 use scenemaker::{FLOORS, SceneText, make_building};
 
 use crate::files::digest::FileDigest;
@@ -29,7 +29,9 @@ impl Scene {
         if path.extension().is_some_and(|ending| ending == "obj") {
             return Scene::of_obj(path, label, &|path| fs::read(path));
         }
-        let document = Document::read(path)?;
+        let text = read_text(path)?;
+        let digest = FileDigest::of(text.as_bytes(), &found.label);
+        let document = Document::parse(path.display(), text)?;
         let file = SceneFile::of(&document)?;
         let mut scene = match made(&document, &file)? {
             Some(text) => {
@@ -53,7 +55,7 @@ impl Scene {
         };
         let origin = scene.geometry.origin;
         scene.geometry.media = file.media.iter().map(|medium| medium.medium(origin)).collect();
-        scene.digests.insert(0, FileDigest::of(path, &found.label)?);
+        scene.digests.insert(0, digest);
         scene.file = Some(file);
         Ok(scene)
     }
@@ -72,7 +74,7 @@ impl Scene {
             bytes_read.set(bytes_read.get() + bytes.len() as u64);
             let name = path.strip_prefix(folder).unwrap_or(path);
             let label = label.with_file_name(name).display().to_string();
-            digests.borrow_mut().push(FileDigest::of_bytes(&bytes, &label));
+            digests.borrow_mut().push(FileDigest::of(&bytes, &label));
             Ok(bytes)
         };
         let (geometry, warnings) =

@@ -111,9 +111,6 @@ fn cells_and_cut(point: &Experiment, scene: &Scene) -> Result<(Triple, Triple), 
 
 impl WallMesh {
     /// The mesh of an experiment's virtual walls, if it has any.
-    ///
-    /// # Errors
-    /// A threshold that would let ever less energy go on for ever.
     pub fn of(point: &Experiment) -> Result<Option<WallMesh>, WrongField> {
         if point.interfaces == Interfaces::Masks {
             return Ok(None);

@@ -16,7 +16,7 @@ use crate::experiment::machine::open_up;
 use crate::experiment::schema::FIELDS;
 use crate::experiment::sweep::{Point, Sweep};
 use crate::files::digest::FileDigest;
-use crate::files::file::{PLAIN, is_plain};
+use crate::files::file::{self, PLAIN, is_plain};
 use crate::files::find::{FileKind, Found, find, named_from};
 use crate::host::host_clock::HostClock;
 use crate::host::program::program;
@@ -43,9 +43,6 @@ impl Plan {
     }
 
     /// Reads an experiment from a document, as if it were the file at `path`.
-    ///
-    /// # Errors
-    /// The first fault met. Nothing was written.
     pub(crate) fn of(
         path: &Path,
         mut document: Document,
@@ -368,6 +365,7 @@ impl Planner<'_> {
         };
         let path = named_from(self.folder, name)
             .map_err(|message| self.document.fault(&Place::of("compare_with"), message))?;
-        Ok((Comparison::read(&path)?, Some(FileDigest::of(&path, name)?)))
+        let bytes = file::read(&path)?;
+        Ok((Comparison::read(&bytes, &path)?, Some(FileDigest::of(&bytes, name))))
     }
 }

@@ -37,9 +37,6 @@ pub struct Results {
 
 impl Results {
     /// The results of a plan that was carried out with these options.
-    ///
-    /// # Errors
-    /// None is known: all is made in memory.
     pub fn of(plan: &Plan, endings: &Endings, options: &Options) -> io::Result<Results> {
         let table = run_table(plan, endings);
         let manifest = manifest(plan, &table, options.on)?;

@@ -3,7 +3,6 @@
 /// y = factor · x^exponent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PowerLaw {
-    /// y at x = 1.
     pub factor: f64,
     pub exponent: f64,
     /// Standard error of the exponent; none of two points, which a line always meets.
@@ -35,7 +34,6 @@ impl PowerLaw {
         self.factor * x.powf(self.exponent)
     }
 
-    /// The exponent with its standard error.
     pub fn words(&self) -> String {
         let error = self.error.map_or(String::new(), |error| format!(" ± {error:.2}"));
         // No "-0.00".

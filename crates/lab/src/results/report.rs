@@ -60,7 +60,6 @@ pub fn html(
     page(&in_words(&manifest["title"]), &viewer_style, &body)
 }
 
-/// A page in the report's style, with additional style.
 pub fn page(title: &str, style: &str, body: &str) -> String {
     let title = escape(title);
     format!(

@@ -12,7 +12,6 @@ use crate::table::column::{Column, Row};
 use crate::table::columns;
 use crate::table::runs_csv::Table;
 
-/// The results of a plan's runs, in the plan's order.
 pub fn run_table(plan: &Plan, endings: &Endings) -> Table {
     let shown = plan.columns();
     let header = columns::header(&shown, &plan.axes);

@@ -2,7 +2,6 @@
 
 use crate::table::runs_csv::Table;
 
-/// Simulated figures against published ones.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Summary {
     /// Geometric mean of max(simulated/paper, paper/simulated) over the speed-ups on more than
@@ -41,7 +40,6 @@ impl Summary {
         summary
     }
 
-    /// The summary in sentences, one a line.
     pub fn lines(&self) -> Vec<String> {
         let mut lines = Vec::new();
         if !self.one_processor.is_empty() {

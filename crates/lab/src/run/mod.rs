@@ -1,19 +1,10 @@
 //! Carries out the runs of a plan on worker threads.
-//!
-//! - [`runner`]: Worker threads that carry out a plan.
-//! - [`queue`]: Which run is next.
-//! - [`progress`]: Progress counters of a run.
-//! - [`feed`]: Updates of a run for live viewers.
-//! - [`saved`]: Finished runs of an interrupted sweep.
-//! - [`shot_files`]: Kept shots in files.
-//! - [`traces`]: Trace files of runs.
-//! - [`viewing`]: Which runs the report shows.
 
-pub mod feed;
-pub mod progress;
-pub mod queue;
-pub mod runner;
-pub mod saved;
-pub mod shot_files;
-pub mod traces;
-pub mod viewing;
+pub mod feed; // Updates of a run for live viewers.
+pub mod progress; // Progress counters of a run.
+pub mod queue; // Which run is next.
+pub mod runner; // Worker threads that carry out a plan.
+pub mod saved; // Finished runs of an interrupted sweep.
+pub mod shot_files; // Kept shots in files.
+pub mod traces; // Trace files of runs.
+pub mod viewing; // Which runs the report shows.

@@ -7,13 +7,11 @@ use virtwall::{KeptShots, ShotCounts};
 
 use crate::planning::plan::Plan;
 
-/// Runs that wait, by problem.
 pub struct Queue {
     problems: Vec<Waiting>,
     counts: ShotCounts,
 }
 
-/// The runs of one problem that wait.
 struct Waiting {
     /// In reverse of the plan's order, to be taken from the end.
     runs: Vec<usize>,
@@ -22,7 +20,6 @@ struct Waiting {
     kept: Option<Arc<KeptShots>>,
 }
 
-/// A run to be worked on.
 pub struct Task {
     pub run: usize,
     pub problem: usize,

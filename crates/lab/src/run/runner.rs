@@ -154,19 +154,14 @@ pub fn carry_out(plan: &Plan, out: &Path, options: &Options, watch: Watch) -> io
         }
     });
     let trouble = held(&shared.trouble).take();
-    match trouble {
-        Some(error) => Err(error),
-        None => Ok(shared.endings()),
-    }
+    trouble.map_or_else(|| Ok(shared.endings()), Err)
 }
 
-/// State that the workers share.
 struct Shared<'a> {
     plan: &'a Plan,
     options: &'a Options,
     watch: Watch,
     saved: Saved,
-    /// Key under which each run is saved.
     keys: Vec<String>,
     recorded: Vec<bool>,
     memory: Arc<Memory>,
@@ -204,7 +199,6 @@ impl Shared<'_> {
         }
     }
 
-    /// Saves how a run ended and what it took.
     fn note(&self, task: &Task, ended: Ended, host: HostTimes) -> io::Result<()> {
         let ending = ended.and_then(|(figures, radiosity)| {
             Ok(Figures { errors: self.errors(task, &radiosity)?, ..figures })
@@ -220,7 +214,6 @@ impl Shared<'_> {
         stored
     }
 
-    /// Where the runs of a problem keep their shots.
     fn kept_shots(&self, problem: usize) -> KeptShots {
         let files = self.options.shot_files.as_ref();
         let archive = files.map(|files| files.of(&self.plan.problems[problem]));
@@ -249,7 +242,6 @@ impl Shared<'_> {
         Ok(Some(errors))
     }
 
-    /// Carries out a run, and writes its trace if one is asked for.
     fn run(&self, task: &Task) -> (Ended, io::Result<()>) {
         let run = &self.plan.runs[task.run];
         let Prepared { problem, scene_bytes, .. } = &self.plan.problems[run.problem];

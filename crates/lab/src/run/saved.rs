@@ -16,7 +16,6 @@ use crate::host::host_clock::HostTimes;
 use crate::host::program::program;
 use crate::planning::plan::{Plan, Run};
 
-/// The folder of finished runs inside a folder of results.
 pub struct Saved {
     folder: PathBuf,
 }

@@ -1,9 +1,9 @@
 //! Kept shots in files, where later runs of this program find them.
 //!
 //! Every process appends only to its own files; it reads those that were in the folder when it began a
-//! problem. A record
-//! is a shot's key and code with a checksum; a damaged or incomplete one counts as missing. The name of a file
-//! is a digest of all that decides the shots: this program, the scene's files, mesh, cut and hemisphere.
+//! problem. A record is a shot's key and code with a checksum; a damaged or incomplete one counts as missing.
+//! The name of a file is a digest of all that decides the shots: this program, the scene's files, mesh, cut and
+//! hemisphere.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions};
@@ -79,7 +79,6 @@ impl ShotFiles {
     }
 }
 
-/// The kept shots of a problem.
 struct ShotFile {
     folder: PathBuf,
     /// What decides its shots, as a digest.
@@ -104,7 +103,6 @@ struct Place {
 }
 
 impl Shots {
-    /// Indexes the records of a file.
     fn read(&mut self, path: &Path, problem: &str) -> io::Result<()> {
         let mut from = BufReader::new(File::open(path)?);
         let end = from.get_ref().metadata()?.len();

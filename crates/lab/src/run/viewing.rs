@@ -24,10 +24,10 @@ impl Viewing {
     pub fn check(&self, plan: &Plan) -> Result<(), String> {
         let runs = plan.runs.len();
         let Viewing::Rows(rows) = self else { return Ok(()) };
-        match rows.iter().find(|row| !(1..=runs).contains(row)) {
-            Some(row) => Err(format!("--viewer: no row {row}; expected rows from 1 to {runs}")),
-            None => Ok(()),
-        }
+        let missing = rows.iter().find(|row| !(1..=runs).contains(row));
+        missing.map_or(Ok(()), |row| {
+            Err(format!("--viewer: no row {row}; expected rows from 1 to {runs}"))
+        })
     }
 
     /// Whether each run of a plan is recorded.

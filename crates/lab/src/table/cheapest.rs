@@ -19,7 +19,6 @@ pub struct Cheapest {
     pub found: Option<Found>,
 }
 
-/// A run, in words.
 pub struct Found {
     pub time_s: f64,
     pub error: f64,
@@ -55,7 +54,7 @@ pub fn read_sweep(folder: &Path, name: &str) -> Result<(Table, FileDigest), Stri
             return Err(format!("\"{name}\" has no column \"{column}\"; expected one"));
         }
     }
-    Ok((table, FileDigest::of_bytes(&bytes, name)))
+    Ok((table, FileDigest::of(&bytes, name)))
 }
 
 /// The least time of a run of a scene that reaches an error, s.

@@ -10,7 +10,6 @@ use crate::engine::network::NetworkFigures;
 use crate::experiment::fields::Experiment;
 use crate::table::comparison::Published;
 
-/// A column of runs.csv.
 pub struct Column {
     pub name: &'static str,
     /// What it holds, and in which unit.

@@ -12,7 +12,6 @@ use crate::table::column::{Column, Input, Row};
 /// The column after which the swept fields of the experiment stand.
 const SWEPT_AFTER: &str = "energy_error";
 
-/// All columns, in order.
 pub const COLUMNS: &[Column] = &[
     column("scene", "Scene.", always, |r| text(&r.input.point.scene)),
     column("processors", "Compute nodes used.", always, |r| text(r.input.point.processors)),

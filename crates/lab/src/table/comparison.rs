@@ -5,8 +5,6 @@ use std::path::Path;
 
 use config::Fault;
 
-use crate::files::file;
-
 /// Published times and speed-ups, as the file writes them, by scene and processors.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Comparison(BTreeMap<(String, u32), Published>);
@@ -25,9 +23,9 @@ impl Comparison {
     /// Reads a CSV file with the columns scene, processors, time_s and speed_up.
     ///
     /// # Errors
-    /// If it cannot be read, a column is missing, or a cell is no number.
-    pub fn read(path: &Path) -> Result<Comparison, Fault> {
-        parse(&file::read(path)?).map_err(|(line, message)| {
+    /// If a column is missing, or a cell is no number. `path` names the file.
+    pub fn read(bytes: &[u8], path: &Path) -> Result<Comparison, Fault> {
+        parse(bytes).map_err(|(line, message)| {
             let line = line.map(|line| line as usize);
             Fault { line, ..Fault::of_file(path.display(), message) }
         })

@@ -6,7 +6,6 @@ use crate::table::runs_csv::Table;
 pub struct Measure<'a>(Vec<&'a str>);
 
 impl<'a> Measure<'a> {
-    /// Takes apart what a plot says of an axis.
     pub fn of(text: &'a str) -> Measure<'a> {
         Measure(text.split('*').map(str::trim).collect())
     }

@@ -1,15 +1,8 @@
 //! The table of results: its columns, and what is read from it.
-//!
-//! - [`column`]: A column of runs.csv, and what its cells are made of.
-//! - [`columns`]: All columns of runs.csv.
-//! - [`runs_csv`]: runs.csv in memory.
-//! - [`measure`]: A column, or a product of columns.
-//! - [`comparison`]: Published figures.
-//! - [`cheapest`]: The cheapest run below an error.
 
-pub mod cheapest;
-pub mod column;
-pub mod columns;
-pub mod comparison;
-pub mod measure;
-pub mod runs_csv;
+pub mod cheapest; // The cheapest run below an error.
+pub mod column; // A column of runs.csv, and what its cells are made of.
+pub mod columns; // All columns of runs.csv.
+pub mod comparison; // Published figures.
+pub mod measure; // A column, or a product of columns.
+pub mod runs_csv; // runs.csv in memory.
