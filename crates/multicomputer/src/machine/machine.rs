@@ -10,7 +10,8 @@ use super::file::{
 };
 use crate::display::{Display, DisplayFile};
 use crate::network::{
-    LinkParameters, LogGpParameters, Network, NetworkModel, NetworkParameters, Place, Shape, Topology,
+    LinkParameters, LogGpParameters, Network, NetworkModel, NetworkParameters, Place, Shape,
+    Topology,
 };
 use crate::node::{MessageLayer, NodeMemory, Processor, StartUp, StartUpFile};
 use crate::sourced::Sourced;
