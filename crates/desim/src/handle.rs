@@ -22,16 +22,11 @@ impl Handle {
 
     /// Creates a process, which an event at the present time starts. Only the waits of this crate
     /// resume it: no other future has a waker.
-    pub fn spawn(
-        &self,
-        name: impl Into<String>,
-        future: impl Future<Output = ()> + 'static,
-    ) -> ProcessId {
+    pub fn spawn(&self, name: impl Into<String>, future: impl Future<Output = ()> + 'static) {
         let mut processes = self.0.processes.borrow_mut();
         let id = ProcessId(processes.len());
         processes.push(Process { name: name.into(), body: Some(Box::pin(future)) });
         self.0.schedule(self.now(), Event::Start(id));
-        id
     }
 
     /// Waits for a span that begins with this call. With a span of zero, the events already

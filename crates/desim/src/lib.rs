@@ -19,32 +19,19 @@
 //! assert_eq!(simulation.run().unwrap().to_string(), "1.5 s");
 //! ```
 
-/// Repeated callbacks.
-mod alarm;
-/// What can happen at a moment.
-mod event;
-/// Events to come, in order.
-mod event_queue;
-/// The interface for processes and callbacks.
-mod handle;
-/// Named futures.
-mod process;
-/// The callback of an alarm.
-mod repeated;
-/// How one process wakes others.
-mod signal;
-/// The executor.
-mod simulation;
-/// The deadlock report.
-mod stalled;
-/// What a simulation and its handles share.
-mod state;
-/// Waits under way.
-mod ticket;
-/// Virtual time.
-mod time;
-/// The future of all waits.
-mod wait;
+mod alarm; // repeated callbacks
+mod event; // what can happen at a moment
+mod event_queue; // events to come, in order
+mod handle; // the interface for processes and callbacks
+mod process; // named futures
+mod repeated; // the callback of an alarm
+mod signal; // how one process wakes others
+mod simulation; // the executor
+mod stalled; // the deadlock report
+mod state; // what a simulation and its handles share
+mod ticket; // waits under way
+mod time; // virtual time
+mod wait; // the future of all waits
 
 pub use alarm::Alarm;
 pub use event_queue::EventQueue;
@@ -52,5 +39,4 @@ pub use handle::Handle;
 pub use signal::Signal;
 pub use simulation::Simulation;
 pub use stalled::{Stalled, Waiting};
-pub use ticket::ProcessId;
 pub use time::{Duration, Time};

@@ -41,7 +41,10 @@ impl Simulation {
             self.state.now.set(time);
             match event {
                 Event::Start(process) => self.resume(process),
-                Event::Timer(ticket) => self.time_came(ticket),
+                Event::Timer(ticket) => {
+                    self.state.tickets.borrow_mut().end(ticket, Outcome::TimeCame);
+                    self.resume(self.process(ticket));
+                }
                 Event::Wake(ticket) => self.resume(self.process(ticket)),
                 Event::Call(action) => action(),
                 Event::Alarm(alarm) => alarm.call(),
@@ -57,11 +60,6 @@ impl Simulation {
             true => Ok(at),
             false => Err(Stalled { at, cause, waiting }),
         }
-    }
-
-    fn time_came(&self, ticket: Ticket) {
-        self.state.tickets.borrow_mut().end(ticket, Outcome::TimeCame);
-        self.resume(self.process(ticket));
     }
 
     fn process(&self, ticket: Ticket) -> ProcessId {

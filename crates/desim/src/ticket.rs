@@ -8,7 +8,7 @@ use crate::time::Time;
 
 /// Identity of a process within its simulation, in order of creation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct ProcessId(pub(crate) usize);
+pub(crate) struct ProcessId(pub(crate) usize);
 
 /// Identity of one wait for events and signals. The waiting future retires its ticket when it is done
 /// or dropped; events and signals that still hold the ticket then have no effect.

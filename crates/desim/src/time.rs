@@ -2,7 +2,7 @@
 
 use std::fmt;
 use std::iter::Sum;
-use std::ops::{Add, AddAssign, Mul, Sub, SubAssign};
+use std::ops::{Add, AddAssign, Mul, Sub};
 
 /// Ticks in a second: one tick is 1 ps, and 64 bits of them last 213 days.
 const TICKS_PER_SECOND: f64 = 1e12;
@@ -32,16 +32,6 @@ impl Duration {
     pub const ZERO: Duration = Duration(0);
     /// The longest span, about 213 days.
     pub const MAX: Duration = Duration(u64::MAX);
-
-    /// A span of `ps` picoseconds.
-    pub const fn from_ps(ps: u64) -> Duration {
-        Duration(ps)
-    }
-
-    /// The span in picoseconds.
-    pub const fn as_ps(self) -> u64 {
-        self.0
-    }
 
     /// The tick nearest to `seconds`. Negative values and NaN give zero; too long a span gives
     /// [`Duration::MAX`].
@@ -97,12 +87,6 @@ impl AddAssign for Duration {
     }
 }
 
-impl SubAssign for Duration {
-    fn sub_assign(&mut self, other: Duration) {
-        *self = *self - other;
-    }
-}
-
 impl Mul<u64> for Duration {
     type Output = Duration;
     fn mul(self, times: u64) -> Duration {
@@ -113,12 +97,6 @@ impl Mul<u64> for Duration {
 impl Sum for Duration {
     fn sum<I: Iterator<Item = Duration>>(spans: I) -> Duration {
         spans.fold(Duration::ZERO, Add::add)
-    }
-}
-
-impl<'a> Sum<&'a Duration> for Duration {
-    fn sum<I: Iterator<Item = &'a Duration>>(spans: I) -> Duration {
-        spans.copied().sum()
     }
 }
 
@@ -158,7 +136,7 @@ mod tests {
 
     #[test]
     fn seconds_round_to_the_nearest_tick_and_saturate() {
-        let ps = |seconds| Duration::from_seconds_f64(seconds).as_ps();
+        let ps = |seconds| Duration::from_seconds_f64(seconds).0;
         assert_eq!(ps(147.58), 147_580_000_000_000);
         assert_eq!(ps(1.4e-12), 1);
         assert_eq!(ps(1.6e-12), 2);
@@ -172,14 +150,14 @@ mod tests {
 
     #[test]
     fn arithmetic_saturates() {
-        let one = Duration::from_ps(1);
+        let one = Duration(1);
         assert_eq!(Duration::ZERO - one, Duration::ZERO);
         assert_eq!(Duration::MAX + one, Duration::MAX);
         assert_eq!(Duration::MAX * 2, Duration::MAX);
         assert_eq!(Time::MAX + one, Time::MAX);
         assert_eq!(Time::ZERO - Time(5), Duration::ZERO);
-        assert_eq!(Time(7) - Time(5), Duration::from_ps(2));
-        assert_eq!([one, one * 3].iter().sum::<Duration>(), Duration::from_ps(4));
+        assert_eq!(Time(7) - Time(5), Duration(2));
+        assert_eq!([one, one * 3].into_iter().sum::<Duration>(), Duration(4));
     }
 
     #[test]

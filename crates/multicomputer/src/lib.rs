@@ -5,18 +5,12 @@
 //! [`Multicomputer`] is such a machine running over [`desim`], whose processes each hold a
 //! [`Node`].
 
-/// Small programs and traffic that measure machines.
-mod bench;
-/// From the service node to a display: frames, Ethernet, back pressure.
-mod display;
-/// The machine: its file, checked, and running.
-mod machine;
-/// When messages arrive: topologies and the ladder of network models.
-mod network;
-/// A node: processor, caches, memory, message layer, and where its time goes.
-mod node;
-/// Numbers of a machine file, with their provenance.
-mod sourced;
+mod bench; // small programs and traffic that measure machines
+mod display; // from the service node to a display: frames, Ethernet, back pressure
+mod machine; // the machine: its file, checked, and running
+mod network; // when messages arrive: topologies and the ladder of network models
+mod node; // a node: processor, caches, memory, message layer, and where its time goes
+mod sourced; // numbers of a machine file, with their provenance
 
 pub use bench::{
     KernelError, Load, Measured, Pattern, ReplayDeadlock, ReplayedMessage, Trace, TraceMessage,

@@ -210,26 +210,19 @@ mod tests {
                     let rays = walls.rays_of(&emitter).unwrap();
                     // Back through the same plane: the opposite side of the neighbour.
                     let (mut sum, all) = (0.0, Mask::all(rays.pixels()));
-                    let behind = |(min, max): (DVec3, DVec3)| Bounds { min, max };
-                    let mut neighbour = (AROUND.min, AROUND.max);
+                    let Bounds { mut min, mut max } = AROUND;
                     if side.upper {
-                        neighbour.0[side.axis] = AROUND.max[side.axis];
-                        neighbour.1[side.axis] += 7.0;
+                        min[side.axis] = AROUND.max[side.axis];
+                        max[side.axis] += 7.0;
                     } else {
-                        neighbour.1[side.axis] = AROUND.min[side.axis];
-                        neighbour.0[side.axis] -= 7.0;
+                        max[side.axis] = AROUND.min[side.axis];
+                        min[side.axis] -= 7.0;
                     }
-                    walls.gather(
-                        &behind(neighbour),
-                        other,
-                        &emitter,
-                        rays,
-                        &all,
-                        |place, weight| {
-                            assert_eq!(place, [patch, bin]);
-                            sum += weight;
-                        },
-                    );
+                    let behind = Bounds { min, max };
+                    walls.gather(&behind, other, &emitter, rays, &all, |place, weight| {
+                        assert_eq!(place, [patch, bin]);
+                        sum += weight;
+                    });
                     assert!((sum - 1.0).abs() < 1e-12, "{sum}");
                 }
             }

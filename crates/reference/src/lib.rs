@@ -1,14 +1,10 @@
 //! Reference answers: what form factors and radiosities should be, each with its error.
 //!
-//! - `form_factors`: closed forms, exact quadrature between polygons and objects, and rays
-//! - `solutions`: radiosities of a scene, by a dense system or by light paths
-//! - `comparison`: stored solutions, and the difference between two solutions
-//!
 //! This crate knows nothing of processors, messages, time or files.
 
-mod comparison;
-mod form_factors;
-mod solutions;
+mod comparison; // stored solutions, and the difference between two solutions
+mod form_factors; // closed forms, exact quadrature between polygons and objects, and rays
+mod solutions; // radiosities of a scene, by a dense system or by light paths
 
 pub use comparison::{Difference, Method, Overlaps, Reference, Subject};
 pub use form_factors::{

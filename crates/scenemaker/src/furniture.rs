@@ -19,22 +19,20 @@ pub fn around(centre: i32, size: i32) -> Span {
 /// A table on one square column: ten polygons.
 pub fn column_table(obj: &mut Obj, [x, y]: [i32; 2], [width, depth]: [i32; 2]) {
     let (x_span, y_span) = (around(x, width), around(y, depth));
-    obj.solid(WOOD_TOP, Cuboid { x: x_span, y: y_span, z: [700, 750] });
+    obj.solid(&WOOD, Cuboid { x: x_span, y: y_span, z: [700, 750] });
     let column = Cuboid { x: around(x, 200), y: around(y, 200), z: [0, 700] };
     obj.faces(&METAL, column, &Facing::SIDES);
 }
 
-const WOOD_TOP: &Material = &WOOD;
-
 /// A table on four legs: 22 polygons.
 pub fn leg_table(obj: &mut Obj, x: Span, y: Span) {
-    obj.solid(WOOD_TOP, Cuboid { x, y, z: [710, 740] });
+    obj.solid(&WOOD, Cuboid { x, y, z: [710, 740] });
     legs(obj, x, y, 60, 710);
 }
 
 /// A desk between two panels: 14 polygons.
 pub fn desk(obj: &mut Obj, x: Span, y: Span) {
-    obj.solid(WOOD_TOP, Cuboid { x, y, z: [710, 740] });
+    obj.solid(&WOOD, Cuboid { x, y, z: [710, 740] });
     for panel in [[x[0] + 20, x[0] + 50], [x[1] - 50, x[1] - 20]] {
         let panel = Cuboid { x: panel, y: [y[0] + 40, y[1] - 40], z: [0, 710] };
         obj.faces(&DARK_WOOD, panel, &Facing::SIDES);

@@ -14,12 +14,11 @@ mod obj; // writes shapes as OBJ text
 mod office; // one open room
 mod palette; // materials
 mod rooms; // 32 equal rooms
-mod scene_text; // the text of a scene's files
 mod shapes; // rectangles, boxes, openings
 mod small; // small scenes to compare methods on
 mod stream; // named random streams
 
 pub use kind::{SceneKind, UnknownScene};
 pub use make::{FLOORS, make, make_building, make_rooms};
+pub use obj::SceneText;
 pub use rooms::MOST_TABLES;
-pub use scene_text::SceneText;

@@ -3,9 +3,8 @@
 use std::ops::RangeInclusive;
 
 use crate::kind::SceneKind;
-use crate::obj::Obj;
+use crate::obj::{Obj, SceneText};
 use crate::rooms::{self, MOST_TABLES};
-use crate::scene_text::SceneText;
 use crate::{building, office, small};
 
 /// Makes a scene. The same seed gives the same bytes.

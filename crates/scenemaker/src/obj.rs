@@ -6,7 +6,6 @@ use std::collections::BTreeMap;
 use std::fmt::{Display, Write};
 
 use crate::palette::Material;
-use crate::scene_text::SceneText;
 use crate::shapes::{
     Cuboid,
     Facing::{self, Down, East, North, South, Up, West},
@@ -31,11 +30,6 @@ impl Obj {
         self.current = None;
     }
 
-    /// Adds a planar four-sided polygon, with corners counter-clockwise seen from the front.
-    pub fn quad(&mut self, material: &'static Material, corners: [Point; 4]) {
-        self.polygon(material, &corners);
-    }
-
     /// Adds a planar convex polygon, with corners counter-clockwise seen from the front.
     pub fn polygon(&mut self, material: &'static Material, corners: &[Point]) {
         if self.current != Some(material.name) {
@@ -52,7 +46,7 @@ impl Obj {
 
     /// Adds a rectangle.
     pub fn rect(&mut self, material: &'static Material, rect: Rect) {
-        self.quad(material, rect.corners());
+        self.polygon(material, &rect.corners());
     }
 
     /// Adds the named outer faces of a box.
@@ -144,6 +138,17 @@ impl Obj {
             next
         })
     }
+}
+
+/// The text of the two files of a scene.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SceneText {
+    /// Name of both files, without extension.
+    pub name: String,
+    /// The OBJ file. It refers to `<name>.mtl`.
+    pub obj: String,
+    /// The MTL file: reflectance in `Kd`, emitted radiosity in W/m² in `Ke`.
+    pub mtl: String,
 }
 
 /// Formats millimetres as metres, exactly and without trailing zeros.

@@ -66,11 +66,8 @@ pub struct Opening {
 /// A box.
 #[derive(Clone, Copy, Debug)]
 pub struct Cuboid {
-    /// Extent in x.
     pub x: Span,
-    /// Extent in y.
     pub y: Span,
-    /// Extent in z.
     pub z: Span,
 }
 

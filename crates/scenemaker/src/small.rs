@@ -86,7 +86,7 @@ const HEIGHT: i32 = 5488;
 pub fn cornell() -> Obj {
     let mut obj = Obj::default();
     obj.object("floor");
-    obj.quad(&BOX_WHITE, turned([[5528, 0, 0], [0, 0, 0], [0, 0, DEPTH], [5496, 0, DEPTH]]));
+    obj.polygon(&BOX_WHITE, &turned([[5528, 0, 0], [0, 0, 0], [0, 0, DEPTH], [5496, 0, DEPTH]]));
     obj.object("ceiling");
     let (x, y) = ([2130, 3430], [DEPTH - 3320, DEPTH - 2270]);
     let ceiling = Rect { facing: Down, at: HEIGHT, u: [0, 5560], v: [0, DEPTH] };
@@ -94,12 +94,15 @@ pub fn cornell() -> Obj {
     obj.object("light");
     obj.rect(&BOX_LIGHT, Rect { u: x, v: y, ..ceiling });
     obj.object("back wall");
-    obj.quad(
+    obj.polygon(
         &BOX_WHITE,
-        turned([[5496, 0, DEPTH], [0, 0, DEPTH], [0, HEIGHT, DEPTH], [5560, HEIGHT, DEPTH]]),
+        &turned([[5496, 0, DEPTH], [0, 0, DEPTH], [0, HEIGHT, DEPTH], [5560, HEIGHT, DEPTH]]),
     );
     obj.object("right wall");
-    obj.quad(&BOX_GREEN, turned([[0, 0, DEPTH], [0, 0, 0], [0, HEIGHT, 0], [0, HEIGHT, DEPTH]]));
+    obj.polygon(
+        &BOX_GREEN,
+        &turned([[0, 0, DEPTH], [0, 0, 0], [0, HEIGHT, 0], [0, HEIGHT, DEPTH]]),
+    );
     obj.object("left wall");
     // Its corners are not in one plane, so it is two triangles.
     let left = turned([[5528, 0, 0], [5496, 0, DEPTH], [5560, HEIGHT, DEPTH], [5560, HEIGHT, 0]]);
@@ -113,11 +116,11 @@ pub fn cornell() -> Obj {
 /// A block on the floor, given by the corners of its top in Cornell's x and z and by its height.
 fn block(obj: &mut Obj, name: &str, top: [[i32; 2]; 4], height: i32) {
     obj.object(name);
-    obj.quad(&BOX_WHITE, turned(top.map(|[x, z]| [x, height, z])));
+    obj.polygon(&BOX_WHITE, &turned(top.map(|[x, z]| [x, height, z])));
     for i in 0..4 {
         let ([ax, az], [bx, bz]) = (top[i], top[(i + 1) % 4]);
         let side = [[ax, height, az], [ax, 0, az], [bx, 0, bz], [bx, height, bz]];
-        obj.quad(&BOX_WHITE, turned(side));
+        obj.polygon(&BOX_WHITE, &turned(side));
     }
 }
 

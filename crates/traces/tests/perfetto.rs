@@ -21,7 +21,7 @@ fn node(rank: usize) -> String {
 
 /// Whether times in ns agree, if each of `spans` was rounded by less than 1 ns.
 fn close(found: u64, exact: desim::Duration, spans: usize) -> bool {
-    found.abs_diff(exact.as_ps() / 1_000) <= spans as u64
+    found.abs_diff(exact.0 / 1_000) <= spans as u64
 }
 
 #[test]

@@ -99,7 +99,8 @@ fn light(problem: &Problem) -> (Vec<Told>, BTreeSet<u32>) {
     let mut lengths = BTreeSet::new();
     for &(_, e, patch) in order.iter().cycle().take(6 * order.len()) {
         let environment = &problem.environments[e as usize];
-        let source = lights[e as usize].take_emitter(&problem.space, environment, e, patch);
+        let source = lights[e as usize].emitter(&problem.space, environment, e, patch);
+        lights[e as usize].unshot[patch as usize] = Rgb::ZERO;
         let mask = Mask::all(problem.hemisphere_for(source.power).pixels());
         let mut waiting = vec![Source { environment: e, emitter: source, mask, form_factor: 1.0 }];
         while let Some(parcel) = waiting.pop() {

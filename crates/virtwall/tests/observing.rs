@@ -93,7 +93,7 @@ fn spans_are_the_account() {
         assert_eq!(ends.max(), Some(outcome.time));
     }
     let LayerAccount { packing, copying, waiting_for_room, .. } = layers;
-    assert!([paging, packing, copying, waiting_for_room].iter().all(|span| span.as_ps() > 0));
+    assert!([paging, packing, copying, waiting_for_room].iter().all(|span| span.0 > 0));
 }
 
 /// Every shot has its span, which says whose it was and ends when the shot did.

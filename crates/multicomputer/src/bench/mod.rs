@@ -1,13 +1,9 @@
 //! Small programs and traffic that measure machines.
 
-/// Ping-pong, exchange, hot spot.
-mod kernels;
-/// A trace sent over a network.
-mod replay;
-/// Messages that a user's file lists.
-mod trace;
-/// Synthetic traffic.
-mod traffic;
+mod kernels; // ping-pong, exchange, hot spot
+mod replay; // a trace sent over a network
+mod trace; // messages that a user's file lists
+mod traffic; // synthetic traffic
 
 pub use kernels::{KernelError, exchange, hot_spot, ping_pong};
 pub use replay::{ReplayDeadlock, ReplayedMessage, replay};

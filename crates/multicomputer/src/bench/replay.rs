@@ -1,13 +1,10 @@
 //! Replays a trace over a network: when each message was sent and arrived, and what blocked it.
 
-use std::fmt;
-
 use desim::{Duration, EventQueue, Time};
 use thiserror::Error;
 
 use super::trace::{Trace, TraceMessage};
-use crate::network::{Arrival, Deadlock, Message, Network, Stall};
-use crate::network::{Place, Topology};
+use crate::network::{Arrival, Deadlock, Message, Network, Place, Stall, Topology};
 
 /// The times of one message of a trace.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -40,18 +37,13 @@ impl ReplayedMessage {
 
 /// A replay that ends in a deadlock.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("at {at}: {text}")]
 pub struct ReplayDeadlock {
     /// Time of the deadlock.
     pub at: Time,
     /// The circle; messages are named by their indices in the trace.
     pub deadlock: Deadlock,
     text: String,
-}
-
-impl fmt::Display for ReplayDeadlock {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "at {}: {}", self.at, self.text)
-    }
 }
 
 /// Sends a trace over a network. Returns the times of each message, in the trace's order.

@@ -6,8 +6,7 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use super::replay::ReplayedMessage;
 use super::trace::{Trace, TraceMessage};
-use crate::network::LinkParameters;
-use crate::network::{Place, Topology};
+use crate::network::{LinkParameters, Place, Topology};
 
 /// Which nodes send to which.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -136,10 +135,9 @@ impl Load {
             }
         }
         messages.sort_by_key(|message| message.at);
-        messages
-            .iter_mut()
-            .enumerate()
-            .for_each(|(number, message)| message.name = number.to_string());
+        for (number, message) in messages.iter_mut().enumerate() {
+            message.name = number.to_string();
+        }
         Trace { messages }
     }
 

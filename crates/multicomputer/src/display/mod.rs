@@ -1,11 +1,8 @@
 //! From the service node to a display: frames, Ethernet, back pressure.
 
-/// A display and the way to it.
-mod display;
-/// A medium that carries one frame at a time.
-mod ethernet;
-/// The service node's end of the connection.
-mod socket;
+mod display; // a display and the way to it
+mod ethernet; // a medium that carries one frame at a time
+mod socket; // the service node's end of the connection
 
 pub(crate) use display::DisplayFile;
 pub use display::{Display, WhenFull};

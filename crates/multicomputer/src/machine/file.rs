@@ -11,8 +11,7 @@ use serde_json::Value;
 
 use crate::display::DisplayFile;
 use crate::network::ModelChoice;
-use crate::node::MessageLayerFile;
-use crate::node::StartUpFile;
+use crate::node::{MessageLayerFile, StartUpFile};
 use crate::sourced::{Positive, Sourced};
 
 /// A distributed-memory machine: compute nodes and service nodes on a mesh, a torus, a crossbar or a

@@ -9,12 +9,11 @@ use super::file::{
     FIELDS, LinksFile, LogGpFile, MachineFile, NetworkFile, NodeMemoryFile, ProcessorFile,
 };
 use crate::display::{Display, DisplayFile};
-use crate::network::{LinkParameters, LogGpParameters, Network, NetworkModel, NetworkParameters};
-use crate::network::{Place, Shape, Topology};
-use crate::node::MessageLayer;
-use crate::node::NodeMemory;
-use crate::node::Processor;
-use crate::node::{StartUp, StartUpFile};
+use crate::network::{
+    LinkParameters, LogGpParameters, Network, NetworkModel, NetworkParameters, Place, Shape,
+    Topology,
+};
+use crate::node::{MessageLayer, NodeMemory, Processor, StartUp, StartUpFile};
 use crate::sourced::Sourced;
 
 /// Largest number of places of a network; more is taken for a mistake in the file.
@@ -269,7 +268,7 @@ fn network(
     if model != Some(NetworkModel::Ideal) && software.is_none() {
         return refuse("network", "missing field `parameters`");
     }
-    if model.is_none_or(NetworkModel::needs_links) && links.is_none() {
+    if model.is_none_or(|model| model >= NetworkModel::Wormhole) && links.is_none() {
         return refuse("network", "missing field `links`");
     }
     Ok((model, NetworkParameters { software, links }))

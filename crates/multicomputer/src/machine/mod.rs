@@ -1,15 +1,10 @@
 //! The machine: its file, checked, and running.
 
-/// Checks the caches of a machine file.
-mod caches;
-/// What experiments change of a machine.
-mod changes;
-/// The structure of a machine file, and its schema.
-mod file;
-/// A machine file, checked.
-mod machine;
-/// A machine that runs.
-mod multicomputer;
+mod caches; // checks the caches of a machine file
+mod changes; // what experiments change of a machine
+mod file; // the structure of a machine file, and its schema
+mod machine; // a machine file, checked
+mod multicomputer; // a machine that runs
 
 pub use changes::{machine_changes_schema, with_source};
 pub use file::machine_schema;

@@ -1,7 +1,6 @@
 //! Deadlock in the network: messages that wait for each other in a cycle.
 
-use std::error::Error;
-use std::fmt;
+use thiserror::Error;
 
 use super::channel::Channel;
 use super::message::Message;
@@ -9,7 +8,8 @@ use super::topology::Topology;
 
 /// A circle of messages, each of which waits for a channel that the next one holds. None of them
 /// will ever move.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("{}", self.describe(|_| "a message".to_owned()))]
 pub struct Deadlock {
     /// The circle; the last one waits for the first.
     pub circle: Vec<Waiting>,
@@ -56,11 +56,3 @@ impl Deadlock {
         format!("deadlock in the network: {waits}, held by the first one")
     }
 }
-
-impl fmt::Display for Deadlock {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.describe(|_| "a message".to_owned()))
-    }
-}
-
-impl Error for Deadlock {}

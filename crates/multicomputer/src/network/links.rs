@@ -26,12 +26,12 @@ impl LinkParameters {
 
     /// Time in which a flit crosses a channel, at least one tick.
     pub(crate) fn cycle(&self) -> Duration {
-        self.passage(self.flit_bytes).max(Duration::from_ps(1))
+        self.passage(self.flit_bytes).max(Duration(1))
     }
 
     /// Whole cycles in a hop's time, at least one.
     pub(crate) fn cycles(&self, hop_time: Duration) -> u64 {
-        (hop_time.as_ps() / self.cycle().as_ps()).max(1)
+        (hop_time.0 / self.cycle().0).max(1)
     }
 
     /// Flits of a message, at least its head.

@@ -3,38 +3,22 @@
 //!
 //! All models stand behind one trait, [`Network`]; [`NetworkModel`] lists them.
 
-/// Which model is good enough.
-mod auto;
-/// Injection, links, ejection: what messages take in turns.
-mod channel;
-/// Messages that wait for each other in a circle.
-mod deadlock;
-/// Wormhole routing, flit by flit.
-mod flit;
-/// Models without contention.
-mod formula;
-/// Past holders of a channel.
-mod holders;
-/// Messages that cost nothing.
-mod ideal;
-/// Parameters of links and routers.
-mod links;
-/// LogGP.
-mod loggp;
-/// A message, as the network sees it.
-mod message;
-/// The models by name, and their parameters.
-mod model;
-/// The trait of all models.
-mod network;
-/// All messages of a run, recorded.
-mod record;
-/// Routers of the flit model.
-mod routers;
-/// Places, links and routes.
-mod topology;
-/// Wormhole routing, message by message.
-mod wormhole;
+mod auto; // which model is good enough
+mod channel; // injection, links, ejection: what messages take in turns
+mod deadlock; // messages that wait for each other in a circle
+mod flit; // wormhole routing, flit by flit
+mod formula; // models without contention
+mod holders; // past holders of a channel
+mod ideal; // messages that cost nothing
+mod links; // parameters of links and routers
+mod loggp; // LogGP
+mod message; // a message, as the network sees it
+mod model; // the models by name, and their parameters
+mod network; // the trait of all models
+mod record; // all messages of a run, recorded
+mod routers; // routers of the flit model
+mod topology; // places, links and routes
+mod wormhole; // wormhole routing, message by message
 
 pub use auto::{AutoResult, choose};
 pub use channel::Channel;

@@ -42,11 +42,6 @@ impl NetworkModel {
             NetworkModel::Flit => "flit",
         }
     }
-
-    /// Whether it needs parameters of links.
-    pub fn needs_links(self) -> bool {
-        self >= NetworkModel::Wormhole
-    }
 }
 
 impl fmt::Display for NetworkModel {

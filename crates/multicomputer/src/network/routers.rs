@@ -338,6 +338,6 @@ impl Routers {
 
     /// The first cycle that does not begin before `time`.
     pub(crate) fn cycle_from(&self, time: Time) -> u64 {
-        time.0.div_ceil(self.cycle.as_ps())
+        time.0.div_ceil(self.cycle.0)
     }
 }

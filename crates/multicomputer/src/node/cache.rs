@@ -82,7 +82,7 @@ impl Caches {
 
     /// Seconds that all cache misses so far cost.
     pub fn time(&self) -> f64 {
-        self.levels.iter().map(Cache::time).sum()
+        self.levels.iter().map(|cache| cache.misses as f64 * cache.level.miss_time).sum()
     }
 
     /// Seconds that all misses of the look-aside buffer so far cost.
@@ -100,10 +100,6 @@ impl Cache {
             misses: 0,
             level: level.clone(),
         }
-    }
-
-    fn time(&self) -> f64 {
-        self.misses as f64 * self.level.miss_time
     }
 
     /// Uses a line. Returns whether it was there.

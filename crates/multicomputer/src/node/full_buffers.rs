@@ -1,13 +1,13 @@
 //! Deadlock by full buffers: senders that wait for room in each other's buffers.
 
-use std::error::Error;
-use std::fmt;
+use thiserror::Error;
 
 use super::envelope::Rank;
 
 /// A circle of processes, each of which waits for room in the buffers of the next one. None of them
 /// will read what is in its own buffers.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("deadlock by full buffers: {}", self.waits())]
 pub struct FullBuffers {
     /// Their ranks. The last one waits for the first.
     pub circle: Vec<Rank>,
@@ -28,21 +28,14 @@ impl FullBuffers {
         }
         Some(FullBuffers { circle })
     }
-}
 
-impl fmt::Display for FullBuffers {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    /// The circle in words.
+    fn waits(&self) -> String {
         if let [rank] = self.circle[..] {
-            return write!(f, "deadlock by full buffers: node {rank} waits for room in its own");
+            return format!("node {rank} waits for room in its own");
         }
         let ranks: Vec<String> = self.circle.iter().map(Rank::to_string).collect();
-        let ranks = ranks.join(", ");
-        write!(
-            f,
-            "deadlock by full buffers: each of the nodes {ranks} waits for room in those of the "
-        )?;
-        f.write_str("next, and the last in those of the first")
+        let others = "waits for room in those of the next, and the last in those of the first";
+        format!("each of the nodes {} {others}", ranks.join(", "))
     }
 }
-
-impl Error for FullBuffers {}

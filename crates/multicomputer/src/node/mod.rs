@@ -1,35 +1,20 @@
 //! A node: processor, caches, memory, message layer, and where its time goes.
 
-/// A node's time by activity.
-mod account;
-/// Finite buffers for messages.
-mod buffers;
-/// Data caches and translation look-aside buffer.
-mod cache;
-/// A second processor for messages.
-mod coprocessor;
-/// A message with sender and receiver.
-mod envelope;
-/// Deadlock by full buffers.
-mod full_buffers;
-/// Memory and paging.
-mod memory;
-/// Packets, coprocessor, copies, buffers: what a machine file says.
-mod message_layer;
-/// The interface for the process on a node.
-mod node;
-/// The interface for observers of a run.
-mod observer;
-/// The time of operations.
-mod processor;
-/// All nodes of a running machine.
-mod shared;
-/// Reading of input at start-up.
-mod start_up;
-/// The state of one node.
-mod state;
-/// The network and the messages in flight.
-mod transport;
+mod account; // a node's time by activity
+mod buffers; // finite buffers for messages
+mod cache; // data caches and translation look-aside buffer
+mod coprocessor; // a second processor for messages
+mod envelope; // a message with sender and receiver
+mod full_buffers; // deadlock by full buffers
+mod memory; // memory and paging
+mod message_layer; // packets, coprocessor, copies, buffers: what a machine file says
+mod node; // the interface for the process on a node
+mod observer; // the interface for observers of a run
+mod processor; // the time of operations
+mod shared; // all nodes of a running machine
+mod start_up; // reading of input at start-up
+mod state; // the state of one node
+mod transport; // the network and the messages in flight
 
 pub use account::{Activity, LayerAccount, NodeAccount};
 pub(crate) use buffers::Buffers;

@@ -36,19 +36,6 @@ impl Light {
         }
     }
 
-    /// Takes the unshot power of a patch, as an emitter to shoot.
-    pub fn take_emitter(
-        &mut self,
-        space: &Space,
-        environment: &LocalEnvironment,
-        number: u32,
-        patch: u32,
-    ) -> Emitter {
-        let emitter = self.emitter(space, environment, number, patch);
-        self.unshot[patch as usize] = Rgb::ZERO;
-        emitter
-    }
-
     /// A patch of environment `number` as an emitter of its current unshot power.
     pub fn emitter(
         &self,

@@ -3,6 +3,7 @@
 use super::greatest::Greatest;
 use super::light::Light;
 use crate::mesh::{LocalEnvironment, Space};
+use crate::scene::Rgb;
 use crate::shoot::{Hemisphere, Mask, shoot};
 
 /// Repeatedly shoots the patch with the most unshot power, until not more than the fraction
@@ -26,7 +27,8 @@ pub fn solve(
     let mut shots = 0;
     while shots < most_shots && left > emitted * stop_below {
         let Some((power, patch)) = greatest.best() else { break };
-        let emitter = light.take_emitter(space, environment, 0, patch);
+        let emitter = light.emitter(space, environment, 0, patch);
+        light.unshot[patch as usize] = Rgb::ZERO;
         let shot = shoot(space, environment, hemisphere, &emitter, &mask);
         left += light.receive(&emitter, &shot).element_sum() - power;
         greatest.set(patch, light.unshot[patch as usize].element_sum());

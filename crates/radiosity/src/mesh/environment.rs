@@ -58,11 +58,6 @@ impl LocalEnvironment {
         found.ok().map(|piece| piece as u32)
     }
 
-    /// The polygon of a piece.
-    pub(crate) fn polygon(&self, piece: u32) -> u32 {
-        self.pieces[piece as usize].polygon
-    }
-
     /// The patch of a piece at a point where a ray hit its front.
     pub fn patch_of(&self, piece: u32, point: DVec3) -> Option<u32> {
         let piece = &self.pieces[piece as usize];

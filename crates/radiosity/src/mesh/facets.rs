@@ -128,14 +128,8 @@ impl Facets {
 
 /// The axes that remain when the largest component of the normal is dropped.
 fn projection_axes(normal: DVec3) -> (usize, usize) {
-    let n = normal.abs();
-    if n.x >= n.y && n.x >= n.z {
-        (1, 2)
-    } else if n.y >= n.z {
-        (2, 0)
-    } else {
-        (0, 1)
-    }
+    let largest = normal.abs().max_position();
+    ((largest + 1) % 3, (largest + 2) % 3)
 }
 
 /// The extents of a projected polygon, if it is an axis-aligned rectangle.

@@ -9,7 +9,7 @@ use glam::DVec3;
 /// back faces the environment has no slots.
 #[derive(Default)]
 pub(crate) struct Piece {
-    pub(super) polygon: u32,
+    pub(crate) polygon: u32,
     /// `point · u - u0` runs from 0 to `nu` over the piece, likewise for v.
     pub(crate) u: DVec3,
     pub(crate) u0: f64,

@@ -55,7 +55,8 @@ impl Scene {
         }
         let Cleaner { mut polygons, warnings, .. } = cleaner;
         if polygons.is_empty() {
-            return Err(SceneError::NoSurface { faces: faces.len() });
+            let found = format!("no surface: {} faces, none with an area", faces.len());
+            return Err(SceneError::Invalid(format!("{found}; expected at least one")));
         }
         share_planes(&mut polygons, tolerance);
         let vertices = keep_used(&welded, &mut polygons);
@@ -75,16 +76,19 @@ fn place(faces: &[Face], index: usize, objects: &[String]) -> String {
 /// Rejects invalid materials, indices and coordinates.
 fn check(faces: &[Face], materials: &[Material], objects: &[String]) -> Result<(), SceneError> {
     materials.iter().try_for_each(Material::check)?;
-    let corners = faces.iter().map(|f| f.points.len()).sum();
+    let corners: usize = faces.iter().map(|f| f.points.len()).sum();
     if corners > u32::MAX as usize / 2 {
-        return Err(SceneError::TooMany { corners });
+        let most = u32::MAX / 2;
+        let message = format!("{corners} corners of faces; expected at most {most}");
+        return Err(SceneError::Invalid(message));
     }
     for (number, face) in faces.iter().enumerate() {
         for (what, index, count) in
             [("material", face.material, materials.len()), ("object", face.object, objects.len())]
         {
             if index as usize >= count {
-                return Err(SceneError::Index { face: number + 1, what, index, count });
+                let found = format!("face {} has {what} {index}", number + 1);
+                return Err(SceneError::Invalid(format!("{found}; expected less than {count}")));
             }
         }
         // NaN fails the comparison too.
@@ -177,12 +181,10 @@ impl Cleaner<'_> {
         };
         let mut duplicated = false;
         for (ring, plane, area) in pieces {
-            if two_sided {
-                let back = ring.iter().rev().copied().collect();
-                duplicated |= !self.push(face, ring, plane, area);
+            let back = two_sided.then(|| ring.iter().rev().copied().collect());
+            duplicated |= !self.push(face, ring, plane, area);
+            if let Some(back) = back {
                 duplicated |= !self.push(face, back, plane.reversed(), area);
-            } else {
-                duplicated |= !self.push(face, ring, plane, area);
             }
         }
         if duplicated {

@@ -28,18 +28,9 @@ pub enum SceneError {
         /// The problem, with the value found and what was expected.
         problem: String,
     },
-    /// No face has an area.
-    #[error("no surface: {faces} faces, none with an area; expected at least one")]
-    NoSurface {
-        /// Faces given.
-        faces: usize,
-    },
-    /// More corners than 32-bit indices can count.
-    #[error("{corners} corners of faces; expected at most {}", u32::MAX / 2)]
-    TooMany {
-        /// Corners of all faces.
-        corners: usize,
-    },
+    /// Faces or materials that do not make a scene: what was found and what was expected.
+    #[error("{0}")]
+    Invalid(String),
     /// A coordinate is not finite or too large.
     #[error(
         "{place}: corner at ({}, {}, {}); expected finite coordinates of at most {FARTHEST:e} m",
@@ -51,57 +42,24 @@ pub enum SceneError {
         /// The corner, world coordinates.
         at: DVec3,
     },
-    /// A face refers to a material or an object that does not exist.
-    #[error("face {face} has {what} {index}; expected less than {count}")]
-    Index {
-        /// Number of the face, from 1.
-        face: usize,
-        /// "material" or "object".
-        what: &'static str,
-        /// Its index.
-        index: u32,
-        /// Number of materials or objects.
-        count: usize,
-    },
-    /// A reflectance is not in [0, 1).
-    #[error(
-        "material \"{material}\": reflectance (Kd) is {} {} {}; expected 0 or more and less than 1",
-        value.x, value.y, value.z
-    )]
-    Reflectance {
-        /// Name of the material.
-        material: String,
-        /// Its reflectance.
-        value: Rgb,
-    },
-    /// An emission is negative or not finite.
-    #[error(
-        "material \"{material}\": emission (Ke) is {} {} {}; expected finite values, 0 or more",
-        value.x, value.y, value.z
-    )]
-    Emission {
-        /// Name of the material.
-        material: String,
-        /// Its emission, W/m².
-        value: Rgb,
-    },
 }
 
 impl Material {
     /// Checks that reflectance and emission are physically possible.
     ///
     /// # Errors
-    /// [`SceneError::Reflectance`] or [`SceneError::Emission`].
+    /// [`SceneError::Invalid`].
     pub fn check(&self) -> Result<(), SceneError> {
-        let (reflectance, emission) = (self.reflectance, self.emission);
+        let Material { name, reflectance, emission, .. } = self;
+        let wrong = |what: &str, Rgb { x, y, z }: Rgb, expected: &str| {
+            let found = format!("material \"{name}\": {what} is {x} {y} {z}");
+            Err(SceneError::Invalid(format!("{found}; expected {expected}")))
+        };
         if !(reflectance.cmpge(Rgb::ZERO) & reflectance.cmplt(Rgb::ONE)).all() {
-            return Err(SceneError::Reflectance {
-                material: self.name.clone(),
-                value: reflectance,
-            });
+            return wrong("reflectance (Kd)", *reflectance, "0 or more and less than 1");
         }
         if !(emission.is_finite() && emission.cmpge(Rgb::ZERO).all()) {
-            return Err(SceneError::Emission { material: self.name.clone(), value: emission });
+            return wrong("emission (Ke)", *emission, "finite values, 0 or more");
         }
         Ok(())
     }

@@ -127,6 +127,6 @@ impl Scene {
 
     /// Positions closer than this count as equal: 1e-9 of the diagonal of the scene, metres.
     pub fn tolerance(&self) -> f64 {
-        1e-9 * (self.bounds.max - self.bounds.min).length()
+        1e-9 * self.bounds.size().length()
     }
 }

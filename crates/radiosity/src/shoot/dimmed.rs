@@ -3,7 +3,7 @@
 use super::hemisphere::Hemisphere;
 use super::mask::Mask;
 use super::plain::{End, cast};
-use super::shot::{Emitter, Outgoing, Shot, count_passes};
+use super::shot::{Emitter, Shot, Tally, finish, place_of_exit, place_of_hit};
 use super::work::{Operation, Work};
 use crate::geometry::Ray;
 use crate::media::{DepthBits, optical_depth};
@@ -21,71 +21,34 @@ pub(crate) fn shoot_dimmed(
     let frame = hemisphere.frame(emitter.centre, emitter.normal);
     let within = space.grid.bounds(&environment.block);
     let bits = mask.depth_bits().unwrap_or(DepthBits::Sixteen);
-    let mut sums = Sums { hits: vec![0.0; environment.patches.len()], ..Sums::default() };
+    let mut form_factors = vec![0.0; Tally::places(environment)];
+    let mut outgoing: [Option<Mask>; 6] = Default::default();
+    let (mut medium, mut work) = (0.0, Work::NONE);
     for pixel in mask.ones() {
         let ray = Ray::new(emitter.centre, hemisphere.direction(frame, pixel));
-        let end = cast(space, environment, &ray, emitter.polygon, &mut sums.work);
+        let end = cast(space, environment, &ray, emitter.polygon, &mut work);
         let limit = if let End::Hit { distance, .. } = end { distance } else { f64::INFINITY };
         let depth = mask.depth(pixel) + optical_depth(&space.scene.media, &ray, &within, limit);
-        let arriving = hemisphere.weights[pixel as usize] * mask.transmittance(pixel);
-        let left = hemisphere.weights[pixel as usize] * libm::exp(-depth);
-        let kept = match end {
+        let weight = hemisphere.weights[pixel as usize];
+        let left = weight * libm::exp(-depth);
+        let (place, kept) = match end {
             End::Hit { polygon, distance } => {
+                work.count(Operation::Hit, 1);
                 let front = space.facets.faces(polygon, &ray);
                 let patch = environment.patch_at(polygon, ray.at(distance)).filter(|_| front);
-                sums.hit(patch, left)
+                (place_of_hit(environment, patch), left)
             }
             End::Leaves(side) if environment.has_neighbour(side) => {
-                let outgoing = sums.outgoing[side.index()].get_or_insert_with(|| Outgoing {
-                    mask: Mask::none(mask.pixels()).with_depths(bits),
-                    form_factor: 0.0,
-                });
-                let left =
-                    hemisphere.weights[pixel as usize] * outgoing.mask.set_depth(pixel, depth);
-                outgoing.form_factor += left;
-                left
+                let none = || Mask::none(mask.pixels()).with_depths(bits);
+                let outgoing = outgoing[side.index()].get_or_insert_with(none);
+                (place_of_exit(environment, side), weight * outgoing.set_depth(pixel, depth))
             }
-            End::Leaves(_) => {
-                sums.escaped += left;
-                left
-            }
+            End::Leaves(side) => (place_of_exit(environment, side), left),
         };
-        sums.medium += arriving - kept;
+        form_factors[place] += kept;
+        medium += weight * mask.transmittance(pixel) - kept;
     }
-    sums.finish(environment, mask)
-}
-
-/// Sums of form factors, reduced by media.
-#[derive(Default)]
-struct Sums {
-    /// By patch.
-    hits: Vec<f64>,
-    backs: f64,
-    escaped: f64,
-    medium: f64,
-    outgoing: [Option<Outgoing>; 6],
-    work: Work,
-}
-
-impl Sums {
-    /// Adds the form factor of a ray that hits a patch, or a back (`None`), and returns it.
-    fn hit(&mut self, patch: Option<u32>, form_factor: f64) -> f64 {
-        self.work.count(Operation::Hit, 1);
-        match patch {
-            Some(patch) => self.hits[patch as usize] += form_factor,
-            None => self.backs += form_factor,
-        }
-        form_factor
-    }
-
-    fn finish(self, environment: &LocalEnvironment, mask: &Mask) -> Shot {
-        let Sums { hits, backs, escaped, medium, outgoing, work } = self;
-        let hits = (0u32..).zip(hits).filter(|&(_, form_factor)| form_factor > 0.0).collect();
-        // A mask is empty if all its pixels are beyond the last step. It is not sent.
-        let outgoing =
-            outgoing.map(|outgoing| outgoing.filter(|outgoing| !outgoing.mask.is_empty()));
-        let mut shot = Shot { hits, backs, escaped, medium, outgoing, work };
-        count_passes(&mut shot, environment, mask);
-        shot
-    }
+    // A mask is empty if all its pixels are beyond the last step. It is not sent.
+    let outgoing = outgoing.map(|mask| mask.filter(|mask| !mask.is_empty()));
+    Shot { medium, ..finish(environment, mask, |place| form_factors[place], outgoing, work) }
 }

@@ -40,11 +40,6 @@ pub(super) fn polar(pixels: u32) -> Vec<DVec3> {
     (0..pixels).map(pixel).collect()
 }
 
-/// All pixels of the concentric map.
-pub(super) fn concentric(side: u32) -> Vec<DVec3> {
-    (0..side * side).map(|i| concentric_pixel(side, i)).collect()
-}
-
 /// Pixel `i` of the concentric map of a square with `side` × `side` pixels (Shirley and Chiu 1997).
 pub(super) fn concentric_pixel(side: u32, i: u32) -> DVec3 {
     let at = |i: u32| 2.0 * (f64::from(i) + 0.5) / f64::from(side) - 1.0;

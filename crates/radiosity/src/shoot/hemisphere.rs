@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::directions::{concentric, concentric_pixel, equal, fibonacci, hemicube, polar};
+use super::directions::{concentric_pixel, equal, fibonacci, hemicube, polar};
 use super::mask::Mask;
 use crate::geometry::Bounds;
 use crate::shoot::bundle::{Bundles, LANES, WIDTH};
@@ -84,7 +84,7 @@ impl Hemisphere {
                     let next = side + 1;
                     return refuse(format!("a square, such as {} or {}", side * side, next * next));
                 }
-                equal(concentric(side))
+                equal((0..pixels).map(|i| concentric_pixel(side, i)).collect())
             }
             HemisphereKind::Hemicube => {
                 let side = (pixels / 3).isqrt() & !1;
@@ -175,14 +175,7 @@ impl Hemisphere {
 
 /// A unit vector perpendicular to a normal, from the axis with its smallest component.
 fn perpendicular(normal: DVec3) -> DVec3 {
-    let least = if normal.x.abs() <= normal.y.abs() && normal.x.abs() <= normal.z.abs() {
-        DVec3::X
-    } else if normal.y.abs() <= normal.z.abs() {
-        DVec3::Y
-    } else {
-        DVec3::Z
-    };
-    least.cross(normal).normalize()
+    DVec3::AXES[normal.abs().min_position()].cross(normal).normalize()
 }
 
 /// Cosine and sine of an angle derived from coordinates: the direction of a pseudo-random point of

@@ -101,7 +101,8 @@ impl BundleShot<'_> {
         let mut polygons = 0;
         environment.tree.visit(simd, &rays.pyramid, stack, |piece| {
             if Some(piece) != *own_piece {
-                nearest.meet(simd, rays, &space.facets, environment.polygon(piece), piece);
+                let polygon = environment.pieces[piece as usize].polygon;
+                nearest.meet(simd, rays, &space.facets, polygon, piece);
             }
             polygons += 1;
             (polygons <= MOST_POLYGONS).then_some(nearest.limit)

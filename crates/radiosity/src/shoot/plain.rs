@@ -6,7 +6,7 @@ use super::mask::Mask;
 use super::shot::{Emitter, Shot, Tally};
 use super::work::{Operation, Work};
 use crate::geometry::Ray;
-use crate::mesh::{LocalEnvironment, Side, Space};
+use crate::mesh::{LocalEnvironment, Passage, Side, Space};
 use crate::shoot::bundle::WIDTH;
 
 /// How the passage of a ray through an environment ends.
@@ -72,21 +72,36 @@ pub fn cast(
 ) -> End {
     work.count(Operation::Ray, 1);
     let start = space.grid.cell_of(ray.origin);
-    let Some(mut passage) = space.grid.enter(&environment.block, ray, start) else {
-        return End::Leaves(space.grid.side_towards(&environment.block, ray));
-    };
-    loop {
+    let hit = follow(space, environment, ray, start, |passage| {
         work.count(Operation::CellStep, 1);
         let polygons = passage.polygons();
         work.count(Operation::PolygonTest, polygons.len() as u64);
-        if let Some((polygon, distance)) =
-            nearest_hit(space, polygons, ray, own_polygon, passage.exit())
-        {
-            return End::Hit { polygon, distance };
+        nearest_hit(space, polygons, ray, own_polygon, passage.exit())
+    });
+    match hit {
+        Ok((polygon, distance)) => End::Hit { polygon, distance },
+        Err(side) => End::Leaves(side),
+    }
+}
+
+/// Follows a ray from cell `start` through an environment until `search`, called in each cell, finds
+/// a hit. If it finds none, returns the side where the ray leaves.
+#[inline]
+pub(crate) fn follow<T>(
+    space: &Space,
+    environment: &LocalEnvironment,
+    ray: &Ray,
+    start: [u32; 3],
+    mut search: impl FnMut(&Passage) -> Option<T>,
+) -> Result<T, Side> {
+    let Some(mut passage) = space.grid.enter(&environment.block, ray, start) else {
+        return Err(space.grid.side_towards(&environment.block, ray));
+    };
+    loop {
+        if let Some(hit) = search(&passage) {
+            return Ok(hit);
         }
-        if let Err(side) = passage.step() {
-            return End::Leaves(side);
-        }
+        passage.step()?;
     }
 }
 

@@ -87,54 +87,66 @@ impl<'a> Tally<'a> {
     /// Rays of a bundle, one bit each, hit the front of a patch, or a back (`None`).
     #[inline]
     pub(crate) fn hit(&mut self, patch: Option<u32>, bundle: usize, rays: u64) {
-        let place = patch.map_or(self.environment.patches.len(), |patch| patch as usize);
-        self.form_factors.add(place, bundle, rays);
+        self.form_factors.add(place_of_hit(self.environment, patch), bundle, rays);
         self.work.count(Operation::Hit, u64::from(rays.count_ones()));
     }
 
     /// Rays of a bundle, one bit each, leave through a side, to a neighbour or out of the scene.
     pub(crate) fn leave(&mut self, side: Side, bundle: usize, rays: u64) {
-        let escaped = self.environment.patches.len() + 1;
-        if !self.environment.has_neighbour(side) {
-            self.form_factors.add(escaped, bundle, rays);
-            return;
+        self.form_factors.add(place_of_exit(self.environment, side), bundle, rays);
+        if self.environment.has_neighbour(side) {
+            self.outgoing[side.index()]
+                .get_or_insert_with(|| Mask::none(self.mask.pixels()))
+                .set_in_word(bundle, rays);
         }
-        self.form_factors.add(escaped + 1 + side.index(), bundle, rays);
-        self.outgoing[side.index()]
-            .get_or_insert_with(|| Mask::none(self.mask.pixels()))
-            .set_in_word(bundle, rays);
     }
 
     /// The finished shot.
     pub(crate) fn finish(self) -> Shot {
-        let Tally { environment, mask, form_factors, mut outgoing, work } = self;
-        let patches = environment.patches.len();
-        let hits = (0..patches).map(|patch| (patch as u32, form_factors.of(patch)));
-        let mut shot = Shot {
-            hits: hits.filter(|&(_, form_factor)| form_factor > 0.0).collect(),
-            backs: form_factors.of(patches),
-            escaped: form_factors.of(patches + 1),
-            medium: 0.0,
-            outgoing: std::array::from_fn(|side| {
-                let form_factor = form_factors.of(patches + 2 + side);
-                outgoing[side].take().map(|mask| Outgoing { mask, form_factor })
-            }),
-            work,
-        };
-        count_passes(&mut shot, environment, mask);
-        shot
+        let Tally { environment, mask, form_factors, outgoing, work } = self;
+        finish(environment, mask, |place| form_factors.of(place), outgoing, work)
     }
 }
 
-/// Counts the other operations of §4.2.3: every pixel of the mask is tested, the mask is copied for
-/// each neighbour, each pixel still true is tested against the plane of that neighbour, and the
-/// radiosities of all local patches are updated.
-pub(crate) fn count_passes(shot: &mut Shot, environment: &LocalEnvironment, mask: &Mask) {
-    let left: u64 = shot.outgoing.iter().flatten().map(|o| u64::from(o.mask.count())).sum();
+/// The form factor to which a hit of a patch counts, or of a back (`None`).
+pub(crate) fn place_of_hit(environment: &LocalEnvironment, patch: Option<u32>) -> usize {
+    patch.map_or(environment.patches.len(), |patch| patch as usize)
+}
+
+/// The form factor to which a ray counts that leaves through a side.
+pub(crate) fn place_of_exit(environment: &LocalEnvironment, side: Side) -> usize {
+    let escaped = environment.patches.len() + 1;
+    if environment.has_neighbour(side) { escaped + 1 + side.index() } else { escaped }
+}
+
+/// The finished shot with the form factor of each place. Counts the other operations of §4.2.3:
+/// every pixel of the mask is tested, the mask is copied for each neighbour, each pixel still true is
+/// tested against the plane of that neighbour, and the radiosities of all local patches are updated.
+pub(crate) fn finish(
+    environment: &LocalEnvironment,
+    mask: &Mask,
+    form_factor: impl Fn(usize) -> f64,
+    mut outgoing: [Option<Mask>; 6],
+    mut work: Work,
+) -> Shot {
+    let patches = environment.patches.len();
+    let left: u64 = outgoing.iter().flatten().map(|mask| u64::from(mask.count())).sum();
     let neighbours = Side::ALL.iter().filter(|&&side| environment.has_neighbour(side)).count();
     let words = mask.words().len() as u64 * u64::from(mask.bits_a_pixel());
-    shot.work.count(Operation::PixelTest, u64::from(mask.pixels()));
-    shot.work.count(Operation::WordCopied, words * neighbours as u64);
-    shot.work.count(Operation::PlaneTest, left * neighbours as u64);
-    shot.work.count(Operation::PatchUpdate, environment.patches.len() as u64);
+    work.count(Operation::PixelTest, u64::from(mask.pixels()));
+    work.count(Operation::WordCopied, words * neighbours as u64);
+    work.count(Operation::PlaneTest, left * neighbours as u64);
+    work.count(Operation::PatchUpdate, patches as u64);
+    let hits = (0..patches).map(|patch| (patch as u32, form_factor(patch)));
+    Shot {
+        hits: hits.filter(|&(_, form_factor)| form_factor > 0.0).collect(),
+        backs: form_factor(patches),
+        escaped: form_factor(patches + 1),
+        medium: 0.0,
+        outgoing: std::array::from_fn(|side| {
+            let form_factor = form_factor(patches + 2 + side);
+            outgoing[side].take().map(|mask| Outgoing { mask, form_factor })
+        }),
+        work,
+    }
 }

@@ -2,6 +2,7 @@
 
 use super::hemisphere::Hemisphere;
 use super::mask::Mask;
+use super::plain::follow;
 use super::shot::Emitter;
 use crate::geometry::Ray;
 use crate::mesh::{LocalEnvironment, Side, Space};
@@ -71,50 +72,31 @@ pub fn trace(
         touch(Record::Direction(pixel));
         tested.iter().for_each(|&(axis, plane)| touch(Record::Search { axis, plane }));
         let ray = Ray::new(emitter.centre, hemisphere.direction(frame, pixel));
-        if let Some(side) = trace_ray(space, environment, &ray, (emitter, start), &mut touch)
-            && environment.has_neighbour(side)
-        {
-            left.push(pixel);
+        let mut crossed = 0..3;
+        let hit = follow(space, environment, &ray, start, |passage| {
+            for axis in crossed.clone() {
+                let plane = passage.cell[axis] + u32::from(ray.direction[axis] > 0.0);
+                touch(Record::Crossing { axis, plane });
+            }
+            let next = passage.next_axis();
+            crossed = next..next + 1;
+            let (place, listed) = (space.grid.index(passage.cell) as u32, passage.polygons());
+            touch(Record::Cell { place, polygons: listed.len() as u32 });
+            let others = listed.iter().copied().filter(|&polygon| polygon != emitter.polygon);
+            nearest_hit(space, others, &ray, passage.exit(), &mut touch)
+        });
+        match hit {
+            Ok((polygon, distance)) => {
+                if let Some(patch) = environment.patch_at(polygon, ray.at(distance)) {
+                    touch(Record::Hit { polygon, patch });
+                }
+            }
+            Err(side) => left.extend(environment.has_neighbour(side).then_some(pixel)),
         }
     }
     for _ in Side::ALL.iter().filter(|&&side| environment.has_neighbour(side)) {
         touch(Record::Copy);
         left.iter().for_each(|&pixel| touch(Record::PlaneTest(pixel)));
-    }
-}
-
-/// Follows a ray from an emitter in cell `start`. Returns the side where it leaves, if any.
-fn trace_ray(
-    space: &Space,
-    environment: &LocalEnvironment,
-    ray: &Ray,
-    (emitter, start): (&Emitter, [u32; 3]),
-    touch: &mut impl FnMut(Record),
-) -> Option<Side> {
-    let Space { grid, .. } = space;
-    let Some(mut passage) = grid.enter(&environment.block, ray, start) else {
-        return Some(grid.side_towards(&environment.block, ray));
-    };
-    let ahead = |cell: [u32; 3], axis: usize| {
-        let plane = cell[axis] + u32::from(ray.direction[axis] > 0.0);
-        Record::Crossing { axis, plane }
-    };
-    (0..3).for_each(|axis| touch(ahead(passage.cell, axis)));
-    loop {
-        let (place, listed) = (grid.index(passage.cell) as u32, passage.polygons());
-        touch(Record::Cell { place, polygons: listed.len() as u32 });
-        let others = listed.iter().copied().filter(|&polygon| polygon != emitter.polygon);
-        if let Some((polygon, distance)) = nearest_hit(space, others, ray, passage.exit(), touch) {
-            if let Some(patch) = environment.patch_at(polygon, ray.at(distance)) {
-                touch(Record::Hit { polygon, patch });
-            }
-            return None;
-        }
-        let axis = passage.next_axis();
-        if let Err(side) = passage.step() {
-            return Some(side);
-        }
-        touch(ahead(passage.cell, axis));
     }
 }
 

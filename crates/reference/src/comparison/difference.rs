@@ -58,11 +58,7 @@ impl Overlaps {
 impl Difference {
     /// The difference between two solutions on the patches of a reference.
     pub fn between(patches: &Patches, reference: &[Rgb], one: &[Rgb], other: &[Rgb]) -> Difference {
-        let weighted = |colours: &mut dyn Iterator<Item = Rgb>| -> f64 {
-            colours.zip(&patches.areas).map(|(c, area)| c.length_squared() * area).sum()
-        };
-        let both = reference.iter().zip(&patches.emission);
-        let light = weighted(&mut both.map(|(&leaving, &emitted)| leaving - emitted));
+        let light = patches.reflected_square(reference);
         let differences = || one.iter().zip(other).map(|(&one, &other)| one - other);
         let area: f64 = 3.0 * patches.areas.iter().sum::<f64>();
         let there = differences().zip(&patches.areas).filter(|&(_, &area)| area > 0.0);
@@ -71,7 +67,7 @@ impl Difference {
             return Difference::default();
         }
         Difference {
-            relative_l2: (weighted(&mut differences()) / light).sqrt(),
+            relative_l2: (patches.square(differences()) / light).sqrt(),
             maximum: greatest / (light / area).sqrt(),
         }
     }

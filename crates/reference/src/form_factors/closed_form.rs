@@ -84,12 +84,6 @@ pub fn element_to_perpendicular_rectangle(a: f64, b: f64, c: f64) -> f64 {
     (atan(1.0 / y) - y / r * atan(1.0 / r)) / (2.0 * PI)
 }
 
-/// From an element to a sphere of radius `r` whose centre is at distance `d`; `cosine` is that of the angle
-/// between the element's normal and the direction to the centre. All of the sphere is above the element's plane.
-pub fn element_to_sphere(r: f64, d: f64, cosine: f64) -> f64 {
-    cosine * (r / d).powi(2)
-}
-
 /// The sum over all combinations of the ends of four spans, with alternating signs.
 fn corners(term: impl Fn([usize; 4]) -> f64) -> f64 {
     let ends = (0..16).map(|n| [n & 1, n >> 1 & 1, n >> 2 & 1, n >> 3]);
@@ -122,7 +116,6 @@ mod tests {
         same(coaxial_discs(1.0, 1.0, 1.0), 0.381_966_011_3);
         same(element_to_parallel_rectangle(1.0, 1.0, 1.0), 0.138_531_606_0);
         same(element_to_perpendicular_rectangle(1.0, 1.0, 1.0), 0.055_734_197_0);
-        same(element_to_sphere(1.0, 2.0, 0.5f64.sqrt()), 0.176_776_695_3);
     }
 
     #[test]

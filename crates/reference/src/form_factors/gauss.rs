@@ -15,17 +15,12 @@ pub(crate) enum Order {
 /// A point of the unit square and its weight.
 type Point = (f64, f64, f64);
 
-static TWO: LazyLock<Vec<Point>> = LazyLock::new(|| collapsed(2));
-static FOUR: LazyLock<Vec<Point>> = LazyLock::new(|| collapsed(4));
-static EIGHT: LazyLock<Vec<Point>> = LazyLock::new(|| collapsed(8));
+/// The points of each order.
+static RULES: LazyLock<[Vec<Point>; 3]> = LazyLock::new(|| [2, 4, 8].map(collapsed));
 
 /// The integral of `f` over a triangle, m² times its unit.
 pub(crate) fn over_triangle([a, b, c]: [DVec3; 3], order: Order, f: impl Fn(DVec3) -> f64) -> f64 {
-    let points = match order {
-        Order::Two => &TWO,
-        Order::Four => &FOUR,
-        Order::Eight => &EIGHT,
-    };
+    let points = &RULES[order as usize];
     let twice_area = (b - a).cross(c - a).length();
     let sum = points.iter().map(|&(u, v, w)| w * f(a + ((b - a) + (c - b) * v) * u)).sum::<f64>();
     twice_area * sum

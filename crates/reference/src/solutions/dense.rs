@@ -29,12 +29,8 @@ impl Solution {
     /// The error relative to the reflected radiosity (radiosity less emission), both as area-weighted root
     /// mean squares over all patches and colours.
     pub fn relative_l2_error(&self, patches: &Patches) -> f64 {
-        let squares = |colours: &mut dyn Iterator<Item = Rgb>| -> f64 {
-            colours.zip(&patches.areas).map(|(c, area)| c.length_squared() * area).sum()
-        };
-        let both = self.radiosity.iter().zip(&patches.emission);
-        let light = squares(&mut both.map(|(&leaving, &emitted)| leaving - emitted));
-        let error = squares(&mut self.error.iter().copied());
+        let light = patches.reflected_square(&self.radiosity);
+        let error = patches.square(self.error.iter().copied());
         if light > 0.0 { (error / light).sqrt() } else { 0.0 }
     }
 }

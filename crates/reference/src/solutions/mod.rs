@@ -1,18 +1,11 @@
 //! Radiosities of a whole scene.
-//!
-//! - `patches`: the patches that a solution is for
-//! - `conjugate_gradients`: the linear solver
-//! - `dense`: exact form factors between all patches, solved to machine precision
-//! - `centres`: form factors from points of patches
-//! - `paths`: light paths from the emitters
-//! - `witnesses`: error of a solution, estimated by independent sets of light paths
 
-pub mod centres;
-mod conjugate_gradients;
-pub mod dense;
-pub mod patches;
-pub mod paths;
-pub mod witnesses;
+pub mod centres; // form factors from points of patches
+mod conjugate_gradients; // the linear solver
+pub mod dense; // exact form factors between all patches, solved to machine precision
+pub mod patches; // the patches that a solution is for
+pub mod paths; // light paths from the emitters
+pub mod witnesses; // error of a solution, estimated by independent sets of light paths
 
 pub use centres::Centres;
 pub use dense::{Dense, Solution};

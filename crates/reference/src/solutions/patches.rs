@@ -33,10 +33,9 @@ impl Patches {
         let area = |patch: &radiosity::Patch| if patch.area > least { patch.area } else { 0.0 };
         let surfaces = environments.iter().flat_map(|environment| {
             (0..).zip(&environment.patches).map(move |(number, patch)| Surface {
-                corners: if area(patch) > 0.0 {
-                    environment.outline(space, number)
-                } else {
-                    Vec::new()
+                corners: match area(patch) > 0.0 {
+                    true => environment.outline(space, number),
+                    false => Vec::new(),
                 },
                 plane: polygon(patch).plane,
                 polygon: patch.polygon,
@@ -48,6 +47,17 @@ impl Patches {
             reflectance: patches().map(|p| space.scene.material(polygon(p)).reflectance).collect(),
             emission: patches().map(|p| space.scene.material(polygon(p)).emission).collect(),
         }
+    }
+
+    /// The reflected part of radiosities: radiosity less emission, squared and integrated over area.
+    pub(crate) fn reflected_square(&self, radiosity: &[Rgb]) -> f64 {
+        let both = radiosity.iter().zip(&self.emission);
+        self.square(both.map(|(&leaving, &emitted)| leaving - emitted))
+    }
+
+    /// Radiosities, one for each patch, squared and integrated over area, summed over colours.
+    pub(crate) fn square(&self, colours: impl Iterator<Item = Rgb>) -> f64 {
+        colours.zip(&self.areas).map(|(c, area)| c.length_squared() * area).sum()
     }
 
     /// The number of patches.

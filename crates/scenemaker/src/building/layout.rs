@@ -50,17 +50,10 @@ pub fn lay_out(plan: Plan, rng: &mut ChaCha8Rng) -> Plan {
     let length = [WALL, SIZE[0] - WALL];
     layout.row(storey.south, length, band::SOUTH, &[(North, south)]);
     layout.row(storey.north, length, band::NORTH, &[(South, north)]);
-    for half in [Half::West, Half::East] {
-        layout.half(storey, half);
+    for (half, inward) in [East, West].into_iter().enumerate() {
+        layout.half(storey, half, inward);
     }
     layout.plan
-}
-
-/// A side of the atrium.
-#[derive(Clone, Copy)]
-enum Half {
-    West,
-    East,
 }
 
 /// A storey under construction: its plan so far, and the indices of its corridors.
@@ -119,16 +112,12 @@ impl<'a> Layout<'a> {
         self.plan.join(atrium, East, self.spine[1], Opening { along, z });
     }
 
-    /// The rooms at one end and in the core on one side of the atrium.
-    fn half(&mut self, storey: &Storey, half: Half) {
-        let (index, inward) = match half {
-            Half::West => (0, East),
-            Half::East => (1, West),
-        };
-        let side = |x: Span| if index == 0 { x } else { mirrored(x) };
+    /// The rooms at one end and in the core on one side of the atrium: west (0) or east (1).
+    fn half(&mut self, storey: &Storey, half: usize, inward: Facing) {
+        let side = |x: Span| if half == 0 { x } else { mirrored(x) };
         let [south, north] = [self.south, self.north];
-        let spine = self.spine[index];
-        self.end_row(storey.ends, side(column::WEST), band::CORE, (inward, self.cross[index]));
+        let spine = self.spine[half];
+        self.end_row(storey.ends, side(column::WEST), band::CORE, (inward, self.cross[half]));
         let beside = side(column::BESIDE_STAIRS);
         match storey.inner {
             Inner::Deep(count) => {

@@ -75,10 +75,10 @@ fn ceiling(usage: Use, hollow: Cuboid) -> Option<Cuboid> {
     let uppermost = z[1] - z[0] == CLEAR;
     match usage {
         Use::Atrium if !uppermost => None,
-        Use::Stairs if !uppermost => {
-            Some(Cuboid { y: [y[0], y[0] + 2200], z: [z[0], z[1] - SLAB], ..hollow })
+        Use::Stairs => {
+            let top = if uppermost { z[1] } else { z[1] - SLAB };
+            Some(Cuboid { y: [y[0], y[0] + 2200], z: [z[0], top], ..hollow })
         }
-        Use::Stairs => Some(Cuboid { y: [y[0], y[0] + 2200], ..hollow }),
         _ => Some(hollow),
     }
 }

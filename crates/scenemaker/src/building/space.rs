@@ -27,11 +27,9 @@ pub enum Use {
     Office,
     /// A room for about six people.
     Shared,
-    /// A seminar room.
     Seminar,
     /// A laboratory or a lecture hall.
     Lab,
-    /// A corridor.
     Corridor,
     /// A stair well, open to the floors above and below.
     Stairs,
@@ -85,9 +83,7 @@ impl Use {
 
 /// A hollow box: a room, a corridor, or one storey of a shaft.
 pub struct Space {
-    /// Its use.
     pub usage: Use,
-    /// Its interior.
     pub hollow: Cuboid,
     number: usize,
     /// Openings in its walls, each with its side.
@@ -160,12 +156,10 @@ impl Plan {
 impl Space {
     fn draw(&self, obj: &mut Obj, level: usize) {
         let [floor, paint] = self.usage.finish(level);
-        let bottom = level == 0 || !self.usage.is_shaft();
-        let top = self.hollow.z[1] == elevation(level) + CLEAR;
-        if bottom {
+        if level == 0 || !self.usage.is_shaft() {
             obj.rect(floor, self.hollow.inner(Up));
         }
-        if top {
+        if self.hollow.z[1] == elevation(level) + CLEAR {
             obj.rect(&CEILING, self.hollow.inner(Down));
         }
         for side in Facing::SIDES {
@@ -181,12 +175,8 @@ impl Space {
     fn draw_side(&self, obj: &mut Obj, paint: &'static Material, side: Facing) {
         let inward = side.opposite();
         let wall = self.hollow.inner(inward);
-        let mut openings: Vec<Opening> = self
-            .openings
-            .iter()
-            .filter(|opening| opening.0 == side)
-            .map(|opening| opening.1)
-            .collect();
+        let own = self.openings.iter().filter(|opening| opening.0 == side);
+        let mut openings: Vec<Opening> = own.map(|opening| opening.1).collect();
         if let Some(glass) = outer_face(side, wall.at) {
             openings = windows(wall.u, self.hollow.z[0]);
             let depth = [glass.min(wall.at), glass.max(wall.at)];

@@ -24,11 +24,8 @@ pub fn draw(obj: &mut Obj, x: Span, y: Span, floors: usize) {
     let (west, east) = ([x[0], x[0] + FLIGHT], [x[1] - FLIGHT, x[1]]);
     let top = floors - 1;
     for level in 0..top {
-        obj.object(format_args!(
-            "stairs {}.{}",
-            level + 1,
-            if x[0] < 30_000 { "west" } else { "east" }
-        ));
+        let end = if x[0] < 30_000 { "west" } else { "east" };
+        obj.object(format_args!("stairs {}.{end}", level + 1));
         let floor = elevation(level);
         flight(obj, west, run, [floor, floor + RISE]);
         slab(obj, x, [run[1], y[1]], floor + RISE);
@@ -56,11 +53,11 @@ fn flight(obj: &mut Obj, x: Span, run: Span, z: Span) {
     let ramp = |y: Span, z: Span| {
         [[x[0], y[0], z[0]], [x[1], y[0], z[0]], [x[1], y[1], z[1]], [x[0], y[1], z[1]]]
     };
-    obj.quad(&CONCRETE, ramp(run, z));
+    obj.polygon(&CONCRETE, &ramp(run, z));
     let mut below = (run, z.map(|z| z - SLAB));
     if below.1[0] < 0 {
         below = ([run[0] + SLAB * (run[1] - run[0]) / RISE, run[1]], [0, below.1[1]]);
     }
     let [a, b, c, d] = ramp(below.0, below.1);
-    obj.quad(&CONCRETE, [b, a, d, c]);
+    obj.polygon(&CONCRETE, &[b, a, d, c]);
 }
