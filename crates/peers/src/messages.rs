@@ -32,11 +32,9 @@ pub struct Row {
     pub messages: u64,
     /// Virtual seconds that it takes.
     pub virtual_seconds: f64,
-    /// Messages simulated per second by one thread: the median of the rounds.
+    /// Messages simulated per second by one thread: median, least and greatest of the rounds.
     pub messages_per_second: f64,
-    /// The least.
     pub least: f64,
-    /// The greatest.
     pub greatest: f64,
     /// The median relative to that of SimGrid's default model.
     pub this_over_simgrid: f64,
@@ -46,9 +44,6 @@ pub struct Row {
 type Measured = (u64, f64, f64);
 
 /// Measures all networks: after a warm-up round, `rounds` rounds in which each network runs the exchange once.
-///
-/// # Errors
-/// If SimGrid's harness fails.
 pub fn measure(simgrid: &Program, rounds: u16) -> Result<Vec<Row>, String> {
     let mut version = String::new();
     let mut measured: Vec<Vec<Measured>> = vec![Vec::new(); OURS.len() + MODELS.len()];

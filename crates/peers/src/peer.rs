@@ -19,9 +19,6 @@ pub struct Recipe {
 
 impl Recipe {
     /// Compiles the program into the folder of the running one.
-    ///
-    /// # Errors
-    /// What is missing, and the packages that contain it.
     pub fn build(&self) -> Result<Program, String> {
         let Recipe { name, source, library, packages } = self;
         let own = std::env::current_exe().map_err(|error| format!("{name}: {error}"))?;
@@ -66,9 +63,6 @@ pub struct Peer {
 
 impl Peer {
     /// Starts a program.
-    ///
-    /// # Errors
-    /// If it does not start.
     pub fn start(program: &Program, arguments: &[&str]) -> Result<Peer, String> {
         let Program { name, path } = program;
         let mut child = Command::new(path)
@@ -83,18 +77,12 @@ impl Peer {
     }
 
     /// Writes a text to its standard input.
-    ///
-    /// # Errors
-    /// If it has ended.
     pub fn write(&mut self, text: &str) -> Result<(), String> {
         let written = self.input.write_all(text.as_bytes()).and_then(|()| self.input.flush());
         written.map_err(|error| format!("{}: {error}", self.name))
     }
 
     /// The next line of its output.
-    ///
-    /// # Errors
-    /// If it has ended.
     pub fn line(&mut self) -> Result<String, String> {
         let mut line = String::new();
         match self.output.read_line(&mut line) {
@@ -105,9 +93,6 @@ impl Peer {
     }
 
     /// The next line of its output: seconds, a count, and one more value.
-    ///
-    /// # Errors
-    /// If the line has another form.
     pub fn figures<T: FromStr>(&mut self) -> Result<(f64, u64, T), String> {
         let line = self.line()?;
         let mut words = line.split(' ');

@@ -74,9 +74,6 @@ pub struct Profile {
 }
 
 /// Profiles Table 1 and the kernel, one thread each.
-///
-/// # Errors
-/// The program that does not run, and the packages that contain it.
 pub fn measure(folder: &TempDir) -> Result<Profile, String> {
     let virtwall = build()?;
     let folder = folder.path();

@@ -37,9 +37,7 @@ const MODES: [(&str, u32, bool); 6] = [
 /// One ray tracer on one scene.
 #[derive(Serialize)]
 pub struct Row {
-    /// The scene.
     pub scene: String,
-    /// Its polygons.
     pub polygons: usize,
     /// The tracer and its mode.
     pub tracer: String,
@@ -49,20 +47,15 @@ pub struct Row {
     pub hits: u64,
     /// Hits on the polygon on which the ray starts.
     pub own_hits: u64,
-    /// Million rays per second of one thread: the median of the rounds.
+    /// Million rays per second of one thread: median, least and greatest of the rounds.
     pub mrays_per_second: f64,
-    /// The least.
     pub least: f64,
-    /// The greatest.
     pub greatest: f64,
     /// The median of this project relative to that of the row.
     pub ours_over_this: f64,
 }
 
 /// Measures a scene: after a warm-up round, `rounds` rounds in which each tracer casts all rays once.
-///
-/// # Errors
-/// A fault of the scene, or of Embree's harness.
 pub fn measure(embree: &Program, scene: &BenchScene, rounds: u16) -> Result<Vec<Row>, String> {
     let open = OpenScene::load(&scene.path.to_string_lossy()).map_err(|fault| fault.to_string())?;
     let bench = RayBench::new(open, SOURCES, RAYS, SEED).map_err(|error| error.to_string())?;
