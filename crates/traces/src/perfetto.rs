@@ -7,7 +7,7 @@ use crate::activities::{activities, name, number};
 use crate::packets::{Packets, Sequence, field};
 use crate::protobuf::Fields;
 use crate::sample::Sample;
-use crate::track::{Event, NodeMessages, Track};
+use crate::track::{Event, Track};
 
 /// Types of events.
 const BEGIN: u64 = 1;
@@ -51,19 +51,15 @@ pub(crate) fn encode(recording: &Recording, title: &str, sample: Sample) -> Vec<
     packets.track((RUN, 0), &sample.caption(title), ordered);
     power(&mut packets, 2, "unshot power", recording, |energy| energy.unshot);
     power(&mut packets, 3, "power in transit", recording, |energy| energy.in_transit);
-    for (rank, numbers) in NodeMessages::of(recording).iter().enumerate() {
-        let node = &recording.nodes[rank];
-        let track = Track { messages: &recording.messages, node, numbers, sample };
-        write_track(&mut packets, rank, &track, rank + 1 == recording.nodes.len());
-    }
+    Track::all(recording, sample).for_each(|node| write_track(&mut packets, &node));
     packets.finish()
 }
 
 /// A node's track, and below it the length of its queue.
-fn write_track(packets: &mut Packets, rank: usize, node: &Track, is_service_node: bool) {
-    let track = 10 + 2 * rank as u64;
-    let name = if is_service_node { "service node".to_owned() } else { format!("node {rank}") };
-    packets.track((track, RUN), &name, |track| track.number(field::TRACK_RANK, rank as u64 + 10));
+fn write_track(packets: &mut Packets, node: &Track) {
+    let rank = node.rank as u64;
+    let track = 10 + 2 * rank;
+    packets.track((track, RUN), &node.name(), |track| track.number(field::TRACK_RANK, rank + 10));
     let mut sequence = packets.sequence(track, intern);
     let mut shots = node.node.shots.iter().peekable();
     for (time, kind) in node.events(false) {
