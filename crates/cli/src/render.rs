@@ -189,12 +189,8 @@ impl Renderer<'_> {
             write(path, &bytes)?;
             exposure = Exposure::MiddleGrey(middle_grey);
         }
-        Ok(match exposure {
-            Exposure::MiddleGrey(radiosity) => {
-                format!("{when}; middle grey is {radiosity:.4} W/m²\n")
-            }
-            Exposure::Auto => when,
-        })
+        let Exposure::MiddleGrey(radiosity) = exposure else { return Ok(when) };
+        Ok(format!("{when}; middle grey is {radiosity:.4} W/m²\n"))
     }
 
     /// Numbered pictures, all with the exposure of the last one.

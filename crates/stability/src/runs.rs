@@ -38,9 +38,6 @@ pub struct CaseRun {
 
 impl<'a> CaseRuns<'a> {
     /// Prepares a case. Fields of `overlay` replace those of its experiment; `path` is the case's file.
-    ///
-    /// # Errors
-    /// The fault for which the experiment is refused.
     pub fn new(
         case: &'a Case,
         document: &Document,
@@ -82,18 +79,12 @@ impl<'a> CaseRuns<'a> {
     }
 
     /// The outcome of a run.
-    ///
-    /// # Errors
-    /// The reason why the run did not end.
     pub fn outcome<'t>(&self, run: &'t CaseRun) -> Result<&'t Outcome, String> {
         let found = run.outcome.get_or_init(|| self.trials.outcome(run.number, &run.problem));
         found.as_ref().map_err(Clone::clone)
     }
 
     /// All runs with their outcomes.
-    ///
-    /// # Errors
-    /// The reason why a run did not end.
     pub fn outcomes(&self) -> Result<Vec<(&CaseRun, &Outcome)>, String> {
         self.list.iter().map(|run| Ok((run, self.outcome(run)?))).collect()
     }

@@ -5,6 +5,7 @@ mod show;
 
 use clap::Subcommand;
 
+pub use self::show::meshed;
 use crate::exit::Exit;
 
 /// What to do with a scene.

@@ -56,7 +56,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
 }
 
 /// The scene in its grid, meshed as one environment.
-fn meshed(open: &OpenScene) -> (Space, LocalEnvironment) {
+pub fn meshed(open: &OpenScene) -> (Space, LocalEnvironment) {
     let space = Space::new(open.scene.clone(), open.cells);
     let size = PatchSize { reflector: open.patch_size, emitter: open.emitter_patch_size };
     let whole = LocalEnvironment::new(&space, space.grid.whole(), size);

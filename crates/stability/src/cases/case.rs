@@ -97,9 +97,6 @@ pub fn case_schema() -> Value {
 
 impl Case {
     /// Reads a case and checks its own fields. The experiment is checked when its runs are prepared.
-    ///
-    /// # Errors
-    /// The first fault found.
     pub fn read(path: &Path) -> Result<(Case, Document), Fault> {
         let document = Document::read(path)?;
         let case: Case = document.read_as()?;

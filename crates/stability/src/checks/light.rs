@@ -10,9 +10,6 @@ use crate::cases::expected::Exact;
 use crate::runs::{CaseRun, CaseRuns};
 
 /// Greatest share of the emitted energy that is unaccounted for.
-///
-/// # Errors
-/// The reason why a run did not end; the same in all functions of this file.
 pub fn closure(runs: &CaseRuns) -> Result<f64, String> {
     let outcomes = runs.outcomes()?;
     Ok(outcomes.iter().map(|(_, outcome)| outcome.energy.error()).fold(0.0, worse))

@@ -1,20 +1,12 @@
 //! Naive methods: slow implementations that make one known mistake each. Only cases use them.
-//!
-//! - `energy`: energy stored and summed in ways that lose it
-//! - `epsilon`: hits near the start of a ray are ignored
-//! - `faces`: faces used as the file has them
-//! - `gather`: receivers search for the lamp
-//! - `march`: rays passed between environments without a rule for edges
-//! - `single`: triangles in single precision
-//! - `walk`: the grid walk of the textbook
 
-mod energy;
-mod epsilon;
-mod faces;
-mod gather;
-mod march;
-mod single;
-mod walk;
+mod energy; // energy stored and summed in ways that lose it
+mod epsilon; // hits near the start of a ray are ignored
+mod faces; // faces used as the file has them
+mod gather; // receivers search for the lamp
+mod march; // rays passed between environments without a rule for edges
+mod single; // triangles in single precision
+mod walk; // the grid walk of the textbook
 
 use crate::cases::naive_method::{MAX_RAYS, NaiveMethod};
 use crate::checks::rays;

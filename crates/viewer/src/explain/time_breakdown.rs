@@ -46,15 +46,12 @@ impl TimeBreakdown {
         self.after += other.after;
     }
 
-    /// Time in kernels.
     pub fn computing(&self) -> f64 {
-        self.sum(&[NodeState::LocalShot, NodeState::ReceivedShot, NodeState::Selection])
+        self.sum(&NodeState::COMPUTING)
     }
 
-    /// Time spent on messages.
     pub fn overhead(&self) -> f64 {
-        use NodeState::{Control, Held, Receiving, Sending};
-        self.sum(&[Sending, Receiving, Control, Held])
+        self.sum(&NodeState::OVERHEAD)
     }
 
     /// Time spent waiting for something to arrive.
