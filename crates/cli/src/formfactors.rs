@@ -14,7 +14,6 @@ use crate::files::write;
 use crate::steps::Steps;
 use crate::threads::Threads;
 
-/// Of which scene, and how exactly.
 #[derive(Args)]
 pub struct Arguments {
     /// Name of a scene, or path to a scene description (.json) or an OBJ file; an object is the union

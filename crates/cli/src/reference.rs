@@ -15,7 +15,6 @@ use crate::scene::meshed;
 use crate::steps::Steps;
 use crate::threads::Threads;
 
-/// Of which scene, and how.
 #[derive(Args)]
 pub struct Arguments {
     /// Name of a scene, or path to a scene description (.json) or an OBJ file
@@ -74,7 +73,6 @@ const MOST_DENSE: usize = 10_000;
 /// Rounds of paths: enough to know their standard error within 10 %.
 const ROUNDS: u32 = 64;
 
-/// A scene meshed as one environment.
 struct Meshed {
     space: Space,
     environment: LocalEnvironment,

@@ -1,7 +1,7 @@
 //! A web server for a page that follows runs while they are under way.
 //!
 //! The simulation writes what happens to a [`Board`] and goes on. Every viewer reads the board at its own
-//! pace, so none can delay a run or another viewer. A [`Server`] has one page, its files and its stream
+//! pace, so none can delay a run or another viewer. A server ([`serve`]) has one page, its files and its stream
 //! of server-sent events.
 
 mod board; // what has happened in the runs so far
@@ -11,4 +11,4 @@ mod server; // listening and answering
 mod stream; // the stream of server-sent events
 
 pub use board::Board;
-pub use server::{Server, Site};
+pub use server::{Site, serve};

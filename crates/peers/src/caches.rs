@@ -235,7 +235,6 @@ pub fn readme(rows: &[Row]) -> Result<String, String> {
     Ok(format!("{head}- {}\n{}{}", valgrind.trim(), Host::here().list(), table(rows)))
 }
 
-/// The rows as a Markdown table.
 pub fn table(rows: &[Row]) -> String {
     let mut text = String::from(
         "\n| machine | scene | environments | shots | million references | level | misses, % | model, % | \

@@ -10,7 +10,6 @@ use crate::function::plain_name;
 /// Counts of a function, without the functions that it calls.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Counts {
-    /// Instructions.
     pub instructions: u64,
     /// Loads and stores that miss the first cache.
     pub cache_misses: u64,
@@ -18,7 +17,6 @@ pub struct Counts {
     pub wrong_branches: u64,
 }
 
-/// Counts by function.
 pub fn count(
     virtwall: &Path,
     arguments: &[String],

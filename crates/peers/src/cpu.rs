@@ -51,7 +51,6 @@ impl Spread {
     }
 }
 
-/// A number rounded to three decimals.
 pub fn rounded(figure: f64) -> f64 {
     (figure * 1e3).round() / 1e3
 }

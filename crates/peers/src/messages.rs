@@ -9,7 +9,6 @@ use crate::cpu::{Spread, rounded, timed};
 use crate::exchange::{BYTES, COLUMNS, OURS, ROWS, exchange, neighbours, paragon};
 use crate::peer::{Peer, Program, Recipe};
 
-/// SimGrid's harness.
 pub const SIMGRID: Recipe = Recipe {
     name: "simgrid",
     source: include_str!("../cpp/simgrid.cpp"),
@@ -17,7 +16,6 @@ pub const SIMGRID: Recipe = Recipe {
     packages: "g++ libsimgrid-dev",
 };
 
-/// Rounds of the exchange.
 const ROUNDS: u64 = 1_000;
 
 /// SimGrid's network models with links; the first is its default.
@@ -106,7 +104,6 @@ fn problem() -> String {
     text
 }
 
-/// The rows as a Markdown table.
 pub fn table(rows: &[Row]) -> String {
     let mut text = format!(
         "\n{} nodes, 4 neighbours, {BYTES} bytes, {ROUNDS} rounds\n\n\

@@ -7,9 +7,7 @@ use std::str::FromStr;
 
 /// How to build a program.
 pub struct Recipe {
-    /// Name of the program.
     pub name: &'static str,
-    /// Its C++ source.
     pub source: &'static str,
     /// The library that it is linked with.
     pub library: &'static str,
@@ -47,7 +45,6 @@ impl Recipe {
     }
 }
 
-/// A compiled program.
 pub struct Program {
     name: &'static str,
     path: PathBuf,
@@ -62,7 +59,6 @@ pub struct Peer {
 }
 
 impl Peer {
-    /// Starts a program.
     pub fn start(program: &Program, arguments: &[&str]) -> Result<Peer, String> {
         let Program { name, path } = program;
         let mut child = Command::new(path)
@@ -76,7 +72,6 @@ impl Peer {
         Ok(Peer { name, child, input, output: BufReader::new(output) })
     }
 
-    /// Writes a text to its standard input.
     pub fn write(&mut self, text: &str) -> Result<(), String> {
         let written = self.input.write_all(text.as_bytes()).and_then(|()| self.input.flush());
         written.map_err(|error| format!("{}: {error}", self.name))

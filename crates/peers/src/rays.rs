@@ -11,7 +11,6 @@ use crate::cpu::{Spread, rounded, timed};
 use crate::peer::{Peer, Program, Recipe};
 use crate::scenes::BenchScene;
 
-/// Embree's harness.
 pub const EMBREE: Recipe = Recipe {
     name: "embree",
     source: include_str!("../cpp/embree.cpp"),
@@ -100,20 +99,14 @@ pub fn measure(embree: &Program, scene: &BenchScene, rounds: u16) -> Result<Vec<
 pub fn table(rows: &[Row]) -> String {
     let mut text = String::new();
     if let Some(Row { scene, polygons, rays, .. }) = rows.first() {
-        put(&mut text, &format_args!("\n{scene}: {polygons} polygons, {rays} rays a round\n"));
-        put(
-            &mut text,
-            &"| tracer | Mrays/s | least–greatest | hits | of these on the source's own polygon | misses | ours/this |\n|---|---:|---:|---:|---:|---:|---:|",
-        );
+        text += &format!("\n{scene}: {polygons} polygons, {rays} rays a round\n\n");
+        text += "| tracer | Mrays/s | least–greatest | hits | of these on the source's own polygon | misses | ours/this |\n|---|---:|---:|---:|---:|---:|---:|\n";
     }
     for row in rows {
         let Row { tracer, rays, hits, own_hits, mrays_per_second, least, greatest, .. } = row;
         let (misses, ratio) = (rays - hits, row.ours_over_this);
-        put(
-            &mut text,
-            &format_args!(
-                "| {tracer} | {mrays_per_second:.1} | {least:.1}–{greatest:.1} | {hits} | {own_hits} | {misses} | {ratio:.2} |"
-            ),
+        text += &format!(
+            "| {tracer} | {mrays_per_second:.1} | {least:.1}–{greatest:.1} | {hits} | {own_hits} | {misses} | {ratio:.2} |\n"
         );
     }
     text

@@ -48,7 +48,6 @@ pub fn record(out: &Path, rounds: u16) -> Result<(), String> {
     Ok(())
 }
 
-/// Rows as CSV.
 pub fn csv(rows: &[impl Serialize]) -> Result<String, String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     rows.iter().try_for_each(|row| writer.serialize(row)).map_err(|error| error.to_string())?;

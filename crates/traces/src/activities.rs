@@ -22,7 +22,6 @@ const OTHERS: [Activity; 11] = [
     Activity::Wait,
 ];
 
-/// The number of an activity.
 pub(crate) fn number(activity: Activity) -> usize {
     match activity {
         Activity::Send(kind) => OTHERS.len() + kind as usize,
@@ -30,7 +29,6 @@ pub(crate) fn number(activity: Activity) -> usize {
     }
 }
 
-/// The name of an activity in a trace.
 pub(crate) fn name(activity: Activity) -> String {
     match activity {
         Activity::Send(kind) => format!("send {}", kind.name()),

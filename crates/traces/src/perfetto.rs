@@ -9,7 +9,6 @@ use crate::protobuf::Fields;
 use crate::sample::Sample;
 use crate::track::{Event, Track};
 
-/// Types of events.
 const BEGIN: u64 = 1;
 const END: u64 = 2;
 const INSTANT: u64 = 3;
@@ -21,10 +20,8 @@ const BY_RANK: u64 = 3;
 /// The track that holds all others.
 const RUN: u64 = 1;
 
-/// The categories of activities.
 const CATEGORIES: [&str; 3] = ["compute", "overhead", "paging"];
 
-/// Annotations of events.
 #[derive(Clone, Copy)]
 enum Note {
     Bytes,
@@ -34,17 +31,9 @@ enum Note {
     Patch,
 }
 
-impl Note {
-    const ALL: [(Note, &str); 5] = [
-        (Note::Bytes, "bytes"),
-        (Note::BlockedNs, "blocked_ns"),
-        (Note::Environment, "environment"),
-        (Note::SourceEnvironment, "source_environment"),
-        (Note::Patch, "patch"),
-    ];
-}
+/// The names of annotations.
+const NOTES: [&str; 5] = ["bytes", "blocked_ns", "environment", "source_environment", "patch"];
 
-/// The file's bytes.
 pub(crate) fn encode(recording: &Recording, title: &str, sample: Sample) -> Vec<u8> {
     let mut packets = Packets::default();
     let ordered = |track: &mut Fields| track.number(field::TRACK_CHILD_ORDERING, BY_RANK);
@@ -104,8 +93,8 @@ fn write_queue(packets: &mut Packets, parent: &Sequence, node: &Track) {
     if changes.peek().is_none() {
         return;
     }
-    let track = parent.track() + 1;
-    packets.track((track, parent.track()), "queue", |track| counter(track, "sources"));
+    let track = parent.track + 1;
+    packets.track((track, parent.track), "queue", |track| counter(track, "sources"));
     let mut sequence = packets.sequence(track, |_| ());
     for (_, &(time, length)) in changes {
         packets.event(&mut sequence, time, |event| {
@@ -194,7 +183,7 @@ fn intern(data: &mut Fields) {
     for (id, category) in (1..).zip(CATEGORIES) {
         entry(field::INTERNED_CATEGORIES, id, category);
     }
-    for (note, name) in Note::ALL {
-        entry(field::INTERNED_ANNOTATIONS, note as u64 + 1, name);
+    for (id, note) in (1..).zip(NOTES) {
+        entry(field::INTERNED_ANNOTATIONS, id, note);
     }
 }

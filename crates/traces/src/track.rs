@@ -5,7 +5,6 @@ use virtwall::{Activity, MessageRecord, NodeRecord, Recording, Span};
 
 use crate::sample::Sample;
 
-/// An event of a node.
 pub(crate) enum Event<'a> {
     /// The span that began last ends.
     End,
@@ -17,7 +16,6 @@ pub(crate) enum Event<'a> {
     Read(usize),
 }
 
-/// A node with its messages.
 pub(crate) struct Track<'a> {
     pub(crate) rank: usize,
     pub(crate) node: &'a NodeRecord,
@@ -51,7 +49,6 @@ impl<'a> Track<'a> {
         })
     }
 
-    /// The node's name.
     pub(crate) fn name(&self) -> String {
         if self.is_service_node { "service node".to_owned() } else { format!("node {}", self.rank) }
     }
@@ -76,7 +73,7 @@ impl<'a> Track<'a> {
                 _ => &[],
             };
             let is_message = matches!(activity, Activity::Send(_) | Activity::Receive);
-            let shown = self.sample.is_complete()
+            let shown = self.sample == Sample::ALL
                 || !is_message
                 || numbers.iter().any(|&number| self.sample.holds(number));
             let activity = if shown { activity } else { Activity::Wait };

@@ -40,7 +40,6 @@ pub struct Broadcast {
     messages: Vec<MessageRow>,
 }
 
-/// The current state of a node.
 #[derive(Clone, Default)]
 struct Node {
     /// What it did since the last part, without waiting.

@@ -20,7 +20,6 @@ const LONGEST_OF_FLITS: u64 = 4_096;
 /// Messages each way, and rounds.
 const ROUNDS: u32 = 10;
 
-/// Which machine.
 #[derive(Args)]
 pub struct Arguments {
     /// Name of a machine, or path to a machine file

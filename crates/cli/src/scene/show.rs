@@ -20,7 +20,6 @@ const MOST_SHOTS: u64 = 5_000;
 /// Rays per shot for a picture.
 const PIXELS: u32 = 4_096;
 
-/// Which scene, and what to draw of it.
 #[derive(Args)]
 pub struct Arguments {
     /// Name of a scene, or path to a scene description (.json) or an OBJ file

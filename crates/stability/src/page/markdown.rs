@@ -28,7 +28,6 @@ pub fn page(results: &[CaseResult]) -> String {
     text
 }
 
-/// A case as a row of the page.
 fn row(result: &CaseResult) -> String {
     let case = &result.case;
     let each = |of: &dyn Fn(&Finding) -> String| joined(result.findings.iter().map(of), "<br>");

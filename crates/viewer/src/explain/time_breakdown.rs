@@ -38,7 +38,6 @@ impl TimeBreakdown {
         breakdown
     }
 
-    /// Adds another node's.
     pub fn add(&mut self, other: &TimeBreakdown) {
         self.states.iter_mut().zip(other.states).for_each(|(sum, more)| *sum += more);
         self.before += other.before;
@@ -54,7 +53,6 @@ impl TimeBreakdown {
         self.sum(&NodeState::OVERHEAD)
     }
 
-    /// Time spent waiting for something to arrive.
     pub fn waiting(&self) -> f64 {
         self.before + self.between + self.after
     }
