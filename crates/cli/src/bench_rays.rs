@@ -9,7 +9,6 @@ use radiosity::{Operation, Work};
 
 use crate::exit::Exit;
 
-/// Which rays to cast.
 #[derive(Args)]
 pub struct Arguments {
     /// Name of a scene, or path to a scene description (.json) or an OBJ file

@@ -7,7 +7,6 @@ use config::Fault;
 
 use crate::exit::Exit;
 
-/// Which files to validate.
 #[derive(Args)]
 pub struct Arguments {
     /// Experiments, machines, traces, scenes, OBJ files or stability cases
@@ -31,7 +30,6 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     Err(Exit { code: 2, output, message: faults.join("\nerror: ") })
 }
 
-/// Validates a file; returns its kind.
 fn check(file: &Path) -> Result<String, Fault> {
     if stability::is_case(file) { stability::check(file) } else { lab::check(file) }
 }

@@ -7,11 +7,9 @@ use config::Fault;
 
 /// How a command failed.
 pub struct Exit {
-    /// The process's exit code.
     pub code: u8,
     /// What is printed to standard output all the same.
     pub output: String,
-    /// What went wrong.
     pub message: String,
 }
 
@@ -21,7 +19,6 @@ impl Exit {
         Exit { code: 1, output: String::new(), message: message.into().to_string() }
     }
 
-    /// Bad input.
     pub fn bad_input(message: impl Into<Box<dyn Error>>) -> Exit {
         Exit { code: 2, output: String::new(), message: message.into().to_string() }
     }
@@ -39,12 +36,6 @@ pub fn print(text: &str) {
     let _ = output.write_all(text.as_bytes()).and_then(|()| output.flush());
 }
 
-/// Prints a line to standard error.
 pub fn print_note(line: &str) {
     let _ = writeln!(io::stderr().lock(), "{line}");
-}
-
-/// Prints an error message to standard error.
-pub fn print_error(message: &str) {
-    print_note(&format!("error: {message}"));
 }

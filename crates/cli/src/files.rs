@@ -11,7 +11,6 @@ pub fn make_folder(path: &Path, purpose: &str) -> Result<(), Exit> {
     })
 }
 
-/// Writes a file.
 pub fn write(path: &Path, bytes: impl AsRef<[u8]>) -> Result<(), Exit> {
     lab::write_file(path, bytes.as_ref()).map_err(Exit::bad_input)
 }

@@ -1,9 +1,10 @@
 //! `virtwall formfactors`: computes form factors between the objects of a scene.
 
+use std::io;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use lab::OpenScene;
+use lab::{OpenScene, Table};
 use radiosity::Space;
 use reference::{Estimate, ObjectRays, Objects};
 use serde_json::json;
@@ -13,7 +14,6 @@ use crate::files::write;
 use crate::steps::Steps;
 use crate::threads::Threads;
 
-/// Of which scene, and how exactly.
 #[derive(Args)]
 pub struct Arguments {
     /// Name of a scene, or path to a scene description (.json) or an OBJ file; an object is the union
@@ -72,7 +72,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         Method::Exact => exact(&objects, arguments.tolerance, threads),
         Method::Rays => by_rays(&open, arguments, threads)?,
     };
-    let text = formatted(&objects, &matrix, arguments.format);
+    let text = formatted(&objects, &matrix, arguments.format).map_err(Exit::failure)?;
     let Some(path) = &arguments.output else { return Ok(text) };
     write(path, text)?;
     Ok(String::new())
@@ -110,17 +110,19 @@ fn by_rays(open: &OpenScene, arguments: &Arguments, threads: usize) -> Result<Ma
     Ok(matrix)
 }
 
-fn formatted(objects: &Objects, matrix: &Matrix, format: Format) -> String {
+fn formatted(objects: &Objects, matrix: &Matrix, format: Format) -> io::Result<String> {
     let count = objects.count();
     let all = (0..count).flat_map(|from| (0..count).map(move |to| (from, to)));
     let rows = all.map(|(from, to)| (objects.name(from), objects.name(to), matrix[from][to]));
-    match format {
-        Format::Csv => rows.fold(
-            "from,to,form_factor,error_estimate\n".to_owned(),
-            |text, (from, to, Estimate { value, error })| {
-                text + &format!("{},{},{value},{error:.2e}\n", quoted(from), quoted(to))
-            },
-        ),
+    Ok(match format {
+        Format::Csv => {
+            let columns = ["from", "to", "form_factor", "error_estimate"].map(str::to_owned);
+            let rows = rows.map(|(from, to, Estimate { value, error })| {
+                vec![from.to_owned(), to.to_owned(), value.to_string(), format!("{error:.2e}")]
+            });
+            let table = Table { columns: columns.to_vec(), rows: rows.collect() };
+            String::from_utf8_lossy(&table.to_csv()?).into_owned()
+        }
         Format::Json => {
             let rows = rows.map(|(from, to, Estimate { value, error })| {
                 json!({ "from": from, "to": to, "form_factor": value, "error_estimate": error })
@@ -139,14 +141,5 @@ fn formatted(objects: &Objects, matrix: &Matrix, format: Format) -> String {
                 text + &format!("{from:width$}{to:width$}{value:<12.10}  {error:.1e}\n")
             })
         }
-    }
-}
-
-/// A cell of a CSV file.
-fn quoted(text: &str) -> String {
-    if text.contains(['"', ',', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
-    }
+    })
 }

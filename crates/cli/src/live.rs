@@ -8,14 +8,13 @@ use std::time::Duration;
 
 use clap::Args;
 use lab::{Feed, News, Plan};
-use live::{Board, Server, Site};
+use live::{Board, Site, serve};
 
 use crate::exit::{Exit, print_note};
 
 /// How long viewers have to fetch the report if standard input is not a terminal.
 const PATIENCE: Duration = Duration::from_secs(5);
 
-/// Whether and where to serve.
 #[derive(Args)]
 pub struct Serving {
     /// Serve a page that shows the runs while they are under way, on this port of 127.0.0.1
@@ -28,7 +27,6 @@ pub struct Serving {
     live_address: IpAddr,
 }
 
-/// A page that is being served.
 pub struct Live {
     board: Arc<Board>,
     page: Arc<Page>,
@@ -51,7 +49,6 @@ impl Site for Page {
 }
 
 impl Serving {
-    /// Whether a page is asked for.
     pub fn asked(&self) -> bool {
         self.live.is_some()
     }
@@ -63,10 +60,11 @@ impl Serving {
         let page = Arc::new(Page { html: Mutex::new(html.into()), blocks });
         let board = Arc::new(Board::default());
         let address = SocketAddr::new(self.live_address, port);
-        let server = Server::start(address, Arc::clone(&page) as Arc<dyn Site>, &board).map_err(
-            |error| Exit::bad_input(format!("--live: cannot listen at {address}: {error}")),
-        )?;
-        let url = format!("http://{}/", server.address());
+        let bound =
+            serve(address, Arc::clone(&page) as Arc<dyn Site>, &board).map_err(|error| {
+                Exit::bad_input(format!("--live: cannot listen at {address}: {error}"))
+            })?;
+        let url = format!("http://{bound}/");
         print_note(&format!("Live at {url}"));
         Ok(Some(Live { board, page, url }))
     }

@@ -24,7 +24,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::exit::{Exit, print, print_error};
+use crate::exit::{Exit, print, print_note};
 
 /// Simulates an Intel Paragon XP/S running the parallel radiosity algorithm of Inria RR-3008.
 #[derive(Parser)]
@@ -90,7 +90,7 @@ fn main() -> ExitCode {
         }
         Err(Exit { code, output, message }) => {
             print(&output);
-            print_error(&message);
+            print_note(&format!("error: {message}"));
             ExitCode::from(code)
         }
     }

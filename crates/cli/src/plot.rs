@@ -7,7 +7,6 @@ use lab::Results;
 
 use crate::exit::Exit;
 
-/// Which results to draw.
 #[derive(Args)]
 pub struct Arguments {
     /// A folder that `virtwall run` wrote

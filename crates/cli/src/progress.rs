@@ -23,7 +23,6 @@ const MOST_LINES: usize = 8;
 /// Characters for the name of a run, so that lines fit 80 columns.
 const NAME: usize = 30;
 
-/// Shows the progress of runs.
 pub struct Progress {
     plan: Arc<Plan>,
     bar: ProgressBar,
@@ -66,7 +65,6 @@ impl Progress {
         !self.bar.is_hidden()
     }
 
-    /// Updates the progress.
     pub fn update(&self, event: Event) {
         let mut counts = self.counts.lock().unwrap_or_else(PoisonError::into_inner);
         match event {
@@ -83,7 +81,6 @@ impl Progress {
         self.show(&mut counts);
     }
 
-    /// Removes the bar.
     pub fn end(&self) {
         self.bar.finish_and_clear();
     }
@@ -115,7 +112,6 @@ impl Progress {
         self.bar.set_message(left + &self.under_way(&counts.counters));
     }
 
-    /// A table of the runs under way.
     fn under_way(&self, counters: &BTreeMap<usize, Counters>) -> String {
         let mut table = String::new();
         if !counters.is_empty() {
@@ -146,7 +142,6 @@ fn target(quiet: bool) -> ProgressDrawTarget {
     if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() }
 }
 
-/// A row of the table.
 fn row(name: &str, cells: [String; 5]) -> String {
     let [time, shots, messages, busy, unshot] = cells;
     format!("\n{name:NAME$} {time:>10} {shots:>8} {messages:>9} {busy:>9} {unshot:>8}")
@@ -168,7 +163,6 @@ impl Pilots {
         self.0.tick();
     }
 
-    /// Removes it.
     pub fn end(&self) {
         self.0.finish_and_clear();
     }

@@ -5,16 +5,16 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use lab::OpenScene;
-use radiosity::{LocalEnvironment, PatchSize, Space};
+use radiosity::{LocalEnvironment, Space};
 use reference::{Dense, Method, Patches, Paths, Problem, Received, Reference, Subject};
 use serde::{Deserialize, Serialize};
 
 use crate::exit::Exit;
 use crate::files::{make_folder, write};
+use crate::scene::meshed;
 use crate::steps::Steps;
 use crate::threads::Threads;
 
-/// Of which scene, and how.
 #[derive(Args)]
 pub struct Arguments {
     /// Name of a scene, or path to a scene description (.json) or an OBJ file
@@ -73,7 +73,6 @@ const MOST_DENSE: usize = 10_000;
 /// Rounds of paths: enough to know their standard error within 10 %.
 const ROUNDS: u32 = 64;
 
-/// A scene meshed as one environment.
 struct Meshed {
     space: Space,
     environment: LocalEnvironment,
@@ -91,9 +90,7 @@ struct Partial {
 /// Computes and stores; returns what was done.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let open = OpenScene::load(&arguments.scene)?.without_media()?;
-    let size = PatchSize { reflector: open.patch_size, emitter: open.emitter_patch_size };
-    let space = Space::new(open.scene, open.cells);
-    let environment = LocalEnvironment::new(&space, space.grid.whole(), size);
+    let (space, environment) = meshed(&open);
     let patches = Patches::new(&space, &environment);
     let threads = arguments.threads.count();
     let (method, problem) = chosen(arguments, patches.count())?;

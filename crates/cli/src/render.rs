@@ -17,7 +17,6 @@ use crate::files::write;
 /// The most frames whose light is in memory at one time.
 const BATCH: usize = 32;
 
-/// What to draw, and how.
 #[derive(Args)]
 pub struct Arguments {
     /// A scene (name, description or OBJ file), which is solved without simulation; or an experiment or
@@ -46,7 +45,6 @@ pub struct Arguments {
     tone: ToneArgument,
 }
 
-/// Which light to show.
 #[derive(Args)]
 struct Moment {
     /// Solve a scene until at most this share of the light is unshot, or for 5,000 shots
@@ -154,7 +152,6 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     })
 }
 
-/// A scene and its camera.
 struct Renderer<'a> {
     arguments: &'a Arguments,
     stage: &'a Stage,
@@ -163,7 +160,6 @@ struct Renderer<'a> {
 }
 
 impl Renderer<'_> {
-    /// One picture, one glTF file, or both.
     fn still(&self) -> Result<String, Exit> {
         let (light, mut exposure, when) = match &self.stage.run {
             None => {
@@ -189,12 +185,8 @@ impl Renderer<'_> {
             write(path, &bytes)?;
             exposure = Exposure::MiddleGrey(middle_grey);
         }
-        Ok(match exposure {
-            Exposure::MiddleGrey(radiosity) => {
-                format!("{when}; middle grey is {radiosity:.4} W/m²\n")
-            }
-            Exposure::Auto => when,
-        })
+        let Exposure::MiddleGrey(radiosity) = exposure else { return Ok(when) };
+        Ok(format!("{when}; middle grey is {radiosity:.4} W/m²\n"))
     }
 
     /// Numbered pictures, all with the exposure of the last one.

@@ -14,7 +14,6 @@ use crate::live;
 use crate::progress::{Pilots, Progress};
 use crate::threads::Threads;
 
-/// Which experiment to run, and how.
 #[derive(Args)]
 pub struct Arguments {
     /// The experiment file. Scenes and machines are looked up in scenes/ and machines/ next to its
@@ -83,7 +82,6 @@ fn viewing(text: &str) -> Result<Viewing, String> {
     }
 }
 
-/// Parses a number of bytes with its unit.
 fn size(text: &str) -> Result<usize, String> {
     parse(text, Dimension::Bytes).map(|bytes| bytes as usize)
 }
@@ -169,7 +167,6 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     }
 }
 
-/// The results as text.
 fn output(plan: &Plan, results: &Results, endings: &Endings) -> String {
     let networks = lab::networks_text(plan, endings);
     let mut output = format!("{}\n{}\n{networks}", plan.title, results.text());

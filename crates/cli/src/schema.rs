@@ -4,7 +4,6 @@ use clap::{Args, ValueEnum};
 
 use crate::exit::Exit;
 
-/// Which schema.
 #[derive(Args)]
 pub struct Arguments {
     /// The kind of file

@@ -9,7 +9,6 @@ use crate::exit::Exit;
 use crate::files::{make_folder, write};
 use crate::steps::Steps;
 
-/// Which cases, and where to write the page.
 #[derive(Args)]
 pub struct Arguments {
     /// Case files, or names of cases in the folder of cases [default: all cases]
@@ -57,8 +56,7 @@ fn place(folder: &Path, name: &str) -> Result<PathBuf, Exit> {
         return Ok(found);
     }
     let names = cases(folder)?;
-    let names = names.iter().filter_map(|path| path.file_stem()?.to_str());
-    let names: Vec<&str> = names.collect();
+    let names: Vec<&str> = names.iter().filter_map(|path| path.file_stem()?.to_str()).collect();
     Err(Exit::bad_input(format!("unknown case \"{name}\" (there are: {})", names.join(", "))))
 }
 

@@ -2,7 +2,6 @@
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// A progress bar.
 pub struct Steps(ProgressBar);
 
 impl Steps {
@@ -26,12 +25,10 @@ impl Steps {
         }
     }
 
-    /// Counts one step.
     pub fn one(&self) {
         self.0.inc(1);
     }
 
-    /// Sets the number of steps done.
     pub fn at(&self, steps: u64) {
         self.0.set_position(steps);
     }
@@ -42,7 +39,6 @@ impl Steps {
         self.0.reset_eta();
     }
 
-    /// Removes the bar.
     pub fn end(&self) {
         self.0.finish_and_clear();
     }

@@ -2,7 +2,6 @@
 
 use clap::Args;
 
-/// How many threads to use.
 #[derive(Args)]
 pub struct Threads {
     /// Threads [default: one per processor of this host]
@@ -11,7 +10,6 @@ pub struct Threads {
 }
 
 impl Threads {
-    /// Their number.
     pub fn count(&self) -> usize {
         self.threads.map_or_else(parallel::host_threads, usize::from)
     }

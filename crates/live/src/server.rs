@@ -24,11 +24,6 @@ pub trait Site: Send + Sync {
     fn file(&self, name: &str) -> Option<String>;
 }
 
-/// A server of a site and of the stream of a board at `/updates`. It lives as long as the process.
-pub struct Server {
-    address: SocketAddr,
-}
-
 /// What the threads that answer requests share.
 struct Shared {
     address: IpAddr,
@@ -37,34 +32,28 @@ struct Shared {
     requests: AtomicUsize,
 }
 
-impl Server {
-    /// Listens at an address; with port 0 the system chooses a port.
-    ///
-    /// # Errors
-    /// If the address is not available.
-    pub fn start(
-        address: SocketAddr,
-        site: Arc<dyn Site>,
-        board: &Arc<Board>,
-    ) -> io::Result<Server> {
-        let listener = TcpListener::bind(address)?;
-        let address = listener.local_addr()?;
-        let server = tiny_http::Server::from_listener(listener, None).map_err(io::Error::other)?;
-        let (ip, board) = (address.ip(), Arc::clone(board));
-        let requests = AtomicUsize::new(0);
-        let shared = Arc::new(Shared { address: ip, site, board, requests });
-        thread::Builder::new().name("live".to_owned()).spawn(move || {
-            for request in server.incoming_requests() {
-                shared.accept(request);
-            }
-        })?;
-        Ok(Server { address })
-    }
-
-    /// Where it listens.
-    pub fn address(&self) -> SocketAddr {
-        self.address
-    }
+/// Serves a site, and the stream of a board at `/updates`, as long as the process lives. Returns the address;
+/// with port 0 the system chooses a port.
+///
+/// # Errors
+/// If the address is not available.
+pub fn serve(
+    address: SocketAddr,
+    site: Arc<dyn Site>,
+    board: &Arc<Board>,
+) -> io::Result<SocketAddr> {
+    let listener = TcpListener::bind(address)?;
+    let address = listener.local_addr()?;
+    let server = tiny_http::Server::from_listener(listener, None).map_err(io::Error::other)?;
+    let (ip, board) = (address.ip(), Arc::clone(board));
+    let requests = AtomicUsize::new(0);
+    let shared = Arc::new(Shared { address: ip, site, board, requests });
+    thread::Builder::new().name("live".to_owned()).spawn(move || {
+        for request in server.incoming_requests() {
+            shared.accept(request);
+        }
+    })?;
+    Ok(address)
 }
 
 impl Shared {

@@ -7,7 +7,7 @@ use std::net::{SocketAddr, TcpStream};
 use std::sync::Arc;
 use std::time::Duration;
 
-use live::{Board, Server, Site};
+use live::{Board, Site, serve};
 
 struct Small;
 
@@ -23,10 +23,9 @@ impl Site for Small {
 
 fn start() -> (Arc<Board>, SocketAddr) {
     let board = Arc::new(Board::default());
-    let server =
-        Server::start(SocketAddr::from(([127, 0, 0, 1], 0)), Arc::new(Small), &board).unwrap();
-    assert!(server.address().ip().is_loopback());
-    (board, server.address())
+    let address = serve(SocketAddr::from(([127, 0, 0, 1], 0)), Arc::new(Small), &board).unwrap();
+    assert!(address.ip().is_loopback());
+    (board, address)
 }
 
 fn connect(address: SocketAddr, request: &str) -> TcpStream {

@@ -9,8 +9,9 @@ use multicomputer::{CacheLevel, Caches};
 use serde::Serialize;
 use virtwall::{Layout, Problem, Source, Storage};
 
+use crate::callgrind;
 use crate::command::run;
-use crate::cpu::rounded;
+use crate::cpu::{Spread, rounded};
 use crate::host::Host;
 use crate::shots;
 
@@ -57,11 +58,8 @@ const NATIVE: Layout = Layout {
 /// One scene in the caches of one machine.
 #[derive(Serialize)]
 pub struct Row {
-    /// The machine.
     pub machine: String,
-    /// The scene.
     pub scene: String,
-    /// Local environments.
     pub local_environments: u32,
     /// The level; 1 is nearest to the processor, `pages` is the translation look-aside buffer.
     pub level: &'static str,
@@ -85,9 +83,6 @@ pub struct Row {
 type Counts = [u64; 3];
 
 /// Measures every scene and decomposition in the caches of a machine.
-///
-/// # Errors
-/// If valgrind does not run, a scene is missing, or the machine does not have two levels.
 pub fn measure(machine: &str) -> Result<Vec<Row>, String> {
     let (levels, pages) = levels(machine)?;
     let mut all = Vec::new();
@@ -142,10 +137,10 @@ fn rows(
     let model = |seed: usize| modelled(&problem, &shots, levels, seed as u64);
     let models = parallel::map(PLACEMENTS_OF_MODEL, threads, model);
     let [references, ..] = counts[0];
-    let percent = |misses: u64| rounded(100.0 * misses as f64 / references as f64);
+    let percent = |misses: f64| rounded(100.0 * misses / references as f64);
     let row = |level: usize| {
-        let counted = Spread::of(counts.iter().map(|counts| counts[level + 1]));
-        let modelled = Spread::of(models.iter().map(|misses| misses[level]));
+        let (counted, spread_counted) = spread(counts.iter().map(|counts| counts[level + 1]));
+        let (modelled, spread_modelled) = spread(models.iter().map(|misses| misses[level]));
         Row {
             machine: machine.to_owned(),
             scene: scene.to_owned(),
@@ -153,11 +148,11 @@ fn rows(
             level: names[level],
             shots: shots.len(),
             references: rounded(references as f64 / 1e6),
-            percent: percent(counted.median),
-            percent_model: percent(modelled.median),
-            ratio: rounded(modelled.median as f64 / counted.median as f64),
-            spread: counted.text(),
-            spread_model: modelled.text(),
+            percent: percent(counted),
+            percent_model: percent(modelled),
+            ratio: rounded(modelled / counted),
+            spread: spread_counted,
+            spread_model: spread_modelled,
         }
     };
     Ok((0..levels.len()).map(row).collect())
@@ -172,18 +167,15 @@ fn counted(
 ) -> Result<Counts, String> {
     let own = std::env::current_exe().map_err(|error| error.to_string())?;
     let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
-    let output = folder.path().join("callgrind.out");
     let mut valgrind = Command::new("valgrind");
-    valgrind.args(["--quiet", "--tool=callgrind", "--cache-sim=yes", "--I1=16384,2,32"]);
+    valgrind.arg("--I1=16384,2,32");
     for (name, CacheLevel { size, ways, line, .. }) in ["D1", "LL"].iter().zip(levels) {
         valgrind.arg(format!("--{name}={size},{ways},{line}"));
     }
     valgrind.arg("--toggle-collect=peers::shots::counted");
-    valgrind.arg(format!("--callgrind-out-file={}", output.display()));
     valgrind.env("MALLOC_MMAP_THRESHOLD_", own_pages.to_string()).env("PADDING", "-".repeat(stack));
-    valgrind.arg(own).args(["shots", scene, &environments.to_string()]);
-    run(&mut valgrind, "valgrind")?;
-    let text = std::fs::read_to_string(&output).map_err(|error| error.to_string())?;
+    let arguments = ["shots", scene, &environments.to_string()].map(str::to_owned);
+    let text = callgrind::run(valgrind, &own, &arguments, folder.path())?;
     totals(&text).ok_or_else(|| "valgrind: found no totals".to_owned())
 }
 
@@ -221,32 +213,14 @@ fn modelled(
     storage.caches().misses().zip(before).map(|(after, before)| after - before).collect()
 }
 
-/// Misses over all placements.
-struct Spread {
-    least: u64,
-    median: u64,
-    greatest: u64,
-}
-
-impl Spread {
-    fn of(misses: impl Iterator<Item = u64>) -> Spread {
-        let mut all: Vec<u64> = misses.collect();
-        all.sort_unstable();
-        let [lower, upper] = [(all.len() - 1) / 2, all.len() / 2].map(|place| all[place]);
-        let median = u64::midpoint(lower, upper);
-        Spread { least: all[0], median, greatest: all[all.len() - 1] }
-    }
-
-    fn text(&self) -> String {
-        let [least, greatest] = [self.least, self.greatest].map(|n| n as f64 / self.median as f64);
-        format!("{least:.2}–{greatest:.2}")
-    }
+/// Misses over all placements: their median, a whole number, and in words the others relative to it.
+fn spread(misses: impl Iterator<Item = u64>) -> (f64, String) {
+    let Spread { least, median, greatest } = Spread::of(misses.map(|n| n as f64).collect());
+    let median = median.floor();
+    (median, format!("{:.2}–{:.2}", least / median, greatest / median))
 }
 
 /// The native program that valgrind runs.
-///
-/// # Errors
-/// A fault of the scene.
 pub fn native(scene: &str, environments: u32) -> Result<(), String> {
     let problem = shots::problem(scene, environments)?;
     let shots = shots::of_lights(&problem, LIGHTS);
@@ -255,16 +229,12 @@ pub fn native(scene: &str, environments: u32) -> Result<(), String> {
 }
 
 /// The README of the results: method, host and table.
-///
-/// # Errors
-/// If valgrind does not print its version.
 pub fn readme(rows: &[Row]) -> Result<String, String> {
     let head = include_str!("../README-of-caches.md");
     let valgrind = run(Command::new("valgrind").arg("--version"), "valgrind")?;
     Ok(format!("{head}- {}\n{}{}", valgrind.trim(), Host::here().list(), table(rows)))
 }
 
-/// The rows as a Markdown table.
 pub fn table(rows: &[Row]) -> String {
     let mut text = String::from(
         "\n| machine | scene | environments | shots | million references | level | misses, % | model, % | \

@@ -4,13 +4,12 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
 
-use crate::command::run;
+use crate::command;
 use crate::function::plain_name;
 
 /// Counts of a function, without the functions that it calls.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Counts {
-    /// Instructions.
     pub instructions: u64,
     /// Loads and stores that miss the first cache.
     pub cache_misses: u64,
@@ -18,22 +17,28 @@ pub struct Counts {
     pub wrong_branches: u64,
 }
 
-/// Counts by function.
-///
-/// # Errors
-/// If valgrind or the program does not run.
 pub fn count(
     virtwall: &Path,
     arguments: &[String],
     folder: &Path,
 ) -> Result<BTreeMap<String, Counts>, String> {
-    let output = folder.join("callgrind.out");
     let mut valgrind = Command::new("valgrind");
-    valgrind.args(["--quiet", "--tool=callgrind", "--cache-sim=yes", "--branch-sim=yes"]);
+    valgrind.arg("--branch-sim=yes");
+    Ok(read(&run(valgrind, virtwall, arguments, folder)?))
+}
+
+/// Runs a program in callgrind, with more options given in `valgrind`; returns callgrind's output.
+pub fn run(
+    mut valgrind: Command,
+    program: &Path,
+    arguments: &[String],
+    folder: &Path,
+) -> Result<String, String> {
+    let output = folder.join("callgrind.out");
+    valgrind.args(["--quiet", "--tool=callgrind", "--cache-sim=yes"]);
     valgrind.arg(format!("--callgrind-out-file={}", output.display()));
-    run(valgrind.arg(virtwall).args(arguments), "valgrind")?;
-    let text = std::fs::read_to_string(&output).map_err(|error| error.to_string())?;
-    Ok(read(&text))
+    command::run(valgrind.arg(program).args(arguments), "valgrind")?;
+    std::fs::read_to_string(&output).map_err(|error| error.to_string())
 }
 
 /// Reads callgrind's output: counts by name of function.

@@ -35,11 +35,9 @@ pub fn clock() -> f64 {
 /// Least, median and greatest of repeated measurements.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spread {
-    /// The least.
     pub least: f64,
     /// The middle one, or the mean of the two in the middle.
     pub median: f64,
-    /// The greatest.
     pub greatest: f64,
 }
 
@@ -53,7 +51,6 @@ impl Spread {
     }
 }
 
-/// A number rounded to three decimals.
 pub fn rounded(figure: f64) -> f64 {
     (figure * 1e3).round() / 1e3
 }

@@ -20,7 +20,6 @@ pub struct Host {
 }
 
 impl Host {
-    /// A Markdown list.
     pub fn list(&self) -> String {
         let Host { processor, cores, memory, system, rustc, compiler, commit, date, .. } = self;
         let vectors = self.vectors.join(", ");

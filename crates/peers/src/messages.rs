@@ -9,7 +9,6 @@ use crate::cpu::{Spread, rounded, timed};
 use crate::exchange::{BYTES, COLUMNS, OURS, ROWS, exchange, neighbours, paragon};
 use crate::peer::{Peer, Program, Recipe};
 
-/// SimGrid's harness.
 pub const SIMGRID: Recipe = Recipe {
     name: "simgrid",
     source: include_str!("../cpp/simgrid.cpp"),
@@ -17,7 +16,6 @@ pub const SIMGRID: Recipe = Recipe {
     packages: "g++ libsimgrid-dev",
 };
 
-/// Rounds of the exchange.
 const ROUNDS: u64 = 1_000;
 
 /// SimGrid's network models with links; the first is its default.
@@ -32,11 +30,9 @@ pub struct Row {
     pub messages: u64,
     /// Virtual seconds that it takes.
     pub virtual_seconds: f64,
-    /// Messages simulated per second by one thread: the median of the rounds.
+    /// Messages simulated per second by one thread: median, least and greatest of the rounds.
     pub messages_per_second: f64,
-    /// The least.
     pub least: f64,
-    /// The greatest.
     pub greatest: f64,
     /// The median relative to that of SimGrid's default model.
     pub this_over_simgrid: f64,
@@ -46,9 +42,6 @@ pub struct Row {
 type Measured = (u64, f64, f64);
 
 /// Measures all networks: after a warm-up round, `rounds` rounds in which each network runs the exchange once.
-///
-/// # Errors
-/// If SimGrid's harness fails.
 pub fn measure(simgrid: &Program, rounds: u16) -> Result<Vec<Row>, String> {
     let mut version = String::new();
     let mut measured: Vec<Vec<Measured>> = vec![Vec::new(); OURS.len() + MODELS.len()];
@@ -111,7 +104,6 @@ fn problem() -> String {
     text
 }
 
-/// The rows as a Markdown table.
 pub fn table(rows: &[Row]) -> String {
     let mut text = format!(
         "\n{} nodes, 4 neighbours, {BYTES} bytes, {ROUNDS} rounds\n\n\

@@ -7,9 +7,7 @@ use std::str::FromStr;
 
 /// How to build a program.
 pub struct Recipe {
-    /// Name of the program.
     pub name: &'static str,
-    /// Its C++ source.
     pub source: &'static str,
     /// The library that it is linked with.
     pub library: &'static str,
@@ -19,9 +17,6 @@ pub struct Recipe {
 
 impl Recipe {
     /// Compiles the program into the folder of the running one.
-    ///
-    /// # Errors
-    /// What is missing, and the packages that contain it.
     pub fn build(&self) -> Result<Program, String> {
         let Recipe { name, source, library, packages } = self;
         let own = std::env::current_exe().map_err(|error| format!("{name}: {error}"))?;
@@ -50,7 +45,6 @@ impl Recipe {
     }
 }
 
-/// A compiled program.
 pub struct Program {
     name: &'static str,
     path: PathBuf,
@@ -65,10 +59,6 @@ pub struct Peer {
 }
 
 impl Peer {
-    /// Starts a program.
-    ///
-    /// # Errors
-    /// If it does not start.
     pub fn start(program: &Program, arguments: &[&str]) -> Result<Peer, String> {
         let Program { name, path } = program;
         let mut child = Command::new(path)
@@ -82,19 +72,12 @@ impl Peer {
         Ok(Peer { name, child, input, output: BufReader::new(output) })
     }
 
-    /// Writes a text to its standard input.
-    ///
-    /// # Errors
-    /// If it has ended.
     pub fn write(&mut self, text: &str) -> Result<(), String> {
         let written = self.input.write_all(text.as_bytes()).and_then(|()| self.input.flush());
         written.map_err(|error| format!("{}: {error}", self.name))
     }
 
     /// The next line of its output.
-    ///
-    /// # Errors
-    /// If it has ended.
     pub fn line(&mut self) -> Result<String, String> {
         let mut line = String::new();
         match self.output.read_line(&mut line) {
@@ -105,9 +88,6 @@ impl Peer {
     }
 
     /// The next line of its output: seconds, a count, and one more value.
-    ///
-    /// # Errors
-    /// If the line has another form.
     pub fn figures<T: FromStr>(&mut self) -> Result<(f64, u64, T), String> {
         let line = self.line()?;
         let mut words = line.split(' ');

@@ -26,9 +26,6 @@ pub struct Share {
 }
 
 /// Shares of the time by function, and processor seconds sampled.
-///
-/// # Errors
-/// If perf or the program does not run.
 pub fn sample(
     virtwall: &Path,
     arguments: &[String],
@@ -53,15 +50,13 @@ pub fn sample(
     if all == 0 {
         return Err("perf: found no sample".to_owned());
     }
-    let mut shares: Vec<(String, f64)> = samples
-        .into_iter()
-        .map(|(function, count)| (function, 100.0 * count as f64 / all as f64))
-        .collect();
-    shares.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let small = shares.iter().position(|(_, share)| *share < LEAST).unwrap_or(shares.len());
-    let rest = shares.drain(small..).map(|(_, share)| share).sum();
-    shares.push(("all others".to_owned(), rest));
-    let share = |(function, percent)| Share { function, percent: rounded(percent) };
-    let shares = shares.into_iter().map(share).collect();
+    let percent = |count: u64| 100.0 * count as f64 / all as f64;
+    let share = |(function, count)| Share { function, percent: percent(count) };
+    let mut shares: Vec<Share> = samples.into_iter().map(share).collect();
+    shares.sort_by(|a, b| b.percent.total_cmp(&a.percent));
+    let small = shares.partition_point(|share| share.percent >= LEAST);
+    let percent = shares.drain(small..).map(|share| share.percent).sum();
+    shares.push(Share { function: "all others".to_owned(), percent });
+    shares.iter_mut().for_each(|share| share.percent = rounded(share.percent));
     Ok((shares, all as f64 / FREQUENCY.parse::<f64>().unwrap_or(1.0)))
 }

@@ -18,9 +18,7 @@ const RAYS: u32 = 30_976;
 /// A function and its cost, for each ray or in a run.
 #[derive(Serialize)]
 pub struct Part {
-    /// As in [`Share`].
     pub function: String,
-    /// As in [`Share`].
     pub percent: f64,
     /// Cycles of the processor.
     pub cycles: f64,
@@ -61,7 +59,6 @@ impl Part {
     }
 }
 
-/// The results.
 pub struct Profile {
     /// Functions of the whole run of Table 1, the greatest share first.
     pub table1: Vec<Share>,
@@ -74,9 +71,6 @@ pub struct Profile {
 }
 
 /// Profiles Table 1 and the kernel, one thread each.
-///
-/// # Errors
-/// The program that does not run, and the packages that contain it.
 pub fn measure(folder: &TempDir) -> Result<Profile, String> {
     let virtwall = build()?;
     let folder = folder.path();
@@ -135,7 +129,6 @@ fn build() -> Result<PathBuf, String> {
     Ok(own.with_file_name("virtwall"))
 }
 
-/// The results as Markdown tables.
 pub fn table(profile: &Profile) -> String {
     let mut text = String::from("\n| Table 1, one thread | % of the time |\n|---|---:|\n");
     for Share { function, percent } in &profile.table1 {

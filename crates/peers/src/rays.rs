@@ -11,7 +11,6 @@ use crate::cpu::{Spread, rounded, timed};
 use crate::peer::{Peer, Program, Recipe};
 use crate::scenes::BenchScene;
 
-/// Embree's harness.
 pub const EMBREE: Recipe = Recipe {
     name: "embree",
     source: include_str!("../cpp/embree.cpp"),
@@ -37,9 +36,7 @@ const MODES: [(&str, u32, bool); 6] = [
 /// One ray tracer on one scene.
 #[derive(Serialize)]
 pub struct Row {
-    /// The scene.
     pub scene: String,
-    /// Its polygons.
     pub polygons: usize,
     /// The tracer and its mode.
     pub tracer: String,
@@ -49,20 +46,15 @@ pub struct Row {
     pub hits: u64,
     /// Hits on the polygon on which the ray starts.
     pub own_hits: u64,
-    /// Million rays per second of one thread: the median of the rounds.
+    /// Million rays per second of one thread: median, least and greatest of the rounds.
     pub mrays_per_second: f64,
-    /// The least.
     pub least: f64,
-    /// The greatest.
     pub greatest: f64,
     /// The median of this project relative to that of the row.
     pub ours_over_this: f64,
 }
 
 /// Measures a scene: after a warm-up round, `rounds` rounds in which each tracer casts all rays once.
-///
-/// # Errors
-/// A fault of the scene, or of Embree's harness.
 pub fn measure(embree: &Program, scene: &BenchScene, rounds: u16) -> Result<Vec<Row>, String> {
     let open = OpenScene::load(&scene.path.to_string_lossy()).map_err(|fault| fault.to_string())?;
     let bench = RayBench::new(open, SOURCES, RAYS, SEED).map_err(|error| error.to_string())?;
@@ -107,20 +99,14 @@ pub fn measure(embree: &Program, scene: &BenchScene, rounds: u16) -> Result<Vec<
 pub fn table(rows: &[Row]) -> String {
     let mut text = String::new();
     if let Some(Row { scene, polygons, rays, .. }) = rows.first() {
-        put(&mut text, &format_args!("\n{scene}: {polygons} polygons, {rays} rays a round\n"));
-        put(
-            &mut text,
-            &"| tracer | Mrays/s | least–greatest | hits | of these on the source's own polygon | misses | ours/this |\n|---|---:|---:|---:|---:|---:|---:|",
-        );
+        text += &format!("\n{scene}: {polygons} polygons, {rays} rays a round\n\n");
+        text += "| tracer | Mrays/s | least–greatest | hits | of these on the source's own polygon | misses | ours/this |\n|---|---:|---:|---:|---:|---:|---:|\n";
     }
     for row in rows {
         let Row { tracer, rays, hits, own_hits, mrays_per_second, least, greatest, .. } = row;
         let (misses, ratio) = (rays - hits, row.ours_over_this);
-        put(
-            &mut text,
-            &format_args!(
-                "| {tracer} | {mrays_per_second:.1} | {least:.1}–{greatest:.1} | {hits} | {own_hits} | {misses} | {ratio:.2} |"
-            ),
+        text += &format!(
+            "| {tracer} | {mrays_per_second:.1} | {least:.1}–{greatest:.1} | {hits} | {own_hits} | {misses} | {ratio:.2} |\n"
         );
     }
     text

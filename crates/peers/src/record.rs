@@ -11,10 +11,7 @@ use crate::{messages, profile, rays, scenes};
 /// The first part of the README: how the results are measured.
 const HEAD: &str = include_str!("../README-of-results.md");
 
-/// Runs all benchmarks and writes the results into a folder.
-///
-/// # Errors
-/// What is missing on this host; in that case nothing is written.
+/// Runs all benchmarks, then writes the results into a folder.
 pub fn record(out: &Path, rounds: u16) -> Result<(), String> {
     let (embree, simgrid) = (rays::EMBREE.build()?, messages::SIMGRID.build()?);
     let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
@@ -25,7 +22,7 @@ pub fn record(out: &Path, rounds: u16) -> Result<(), String> {
         casts.push(rays::measure(&embree, &scene, rounds)?);
     }
     let messages = messages::measure(&simgrid, rounds)?;
-    let benches = cargo_bench()?;
+    let benches = run(cargo().args(["bench", "--quiet"]), "cargo")?;
 
     let mut readme = format!("{HEAD}\n## Where\n\n{}\n", host.list());
     readme += "## Rays, beside Embree\n";
@@ -51,10 +48,6 @@ pub fn record(out: &Path, rounds: u16) -> Result<(), String> {
     Ok(())
 }
 
-/// Rows as CSV.
-///
-/// # Errors
-/// Those of the CSV writer; rows of plain fields have none.
 pub fn csv(rows: &[impl Serialize]) -> Result<String, String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     rows.iter().try_for_each(|row| writer.serialize(row)).map_err(|error| error.to_string())?;
@@ -63,15 +56,7 @@ pub fn csv(rows: &[impl Serialize]) -> Result<String, String> {
 }
 
 /// Writes one file into a folder, which is created if necessary.
-///
-/// # Errors
-/// Those of the file system.
 pub fn write(folder: &Path, name: &str, text: &str) -> Result<(), String> {
     std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     lab::write_file(&folder.join(name), text.as_bytes()).map_err(|error| error.to_string())
-}
-
-/// The output of `cargo bench`.
-fn cargo_bench() -> Result<String, String> {
-    run(cargo().args(["bench", "--quiet"]), "cargo")
 }

@@ -16,9 +16,6 @@ pub struct BenchScene {
 const ROOMS: [(&str, u32); 2] = [("S", 0), ("M", 30)];
 
 /// The scenes that the user names; by default rooms of two sizes and the three scenes of the paper.
-///
-/// # Errors
-/// If a scene cannot be written into `folder`.
 pub fn scenes(asked: &[PathBuf], folder: &TempDir) -> Result<Vec<BenchScene>, String> {
     if !asked.is_empty() {
         let named =

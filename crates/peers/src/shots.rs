@@ -10,9 +10,6 @@ use radiosity::{Bounds, Emitter, End, Light, Mask, Ray, Rgb, Side, Work, cast, s
 use virtwall::{Problem, Source};
 
 /// The experiment of Table 1 on one processor, with fields replaced.
-///
-/// # Errors
-/// A fault of the experiment.
 pub fn plan(set: &[&str]) -> Result<lab::Plan, String> {
     let set: Vec<String> =
         [&["processors=1"], set].concat().into_iter().map(str::to_owned).collect();
@@ -22,9 +19,6 @@ pub fn plan(set: &[&str]) -> Result<lab::Plan, String> {
 }
 
 /// A scene cut into a number of local environments.
-///
-/// # Errors
-/// A fault of the scene.
 pub fn problem(scene: &str, environments: u32) -> Result<Arc<Problem>, String> {
     let environments = format!("local_environments={environments}");
     let plan = plan(&[&format!("scene={scene}"), &environments])?;

@@ -7,14 +7,11 @@ pub const ROUNDING: f64 = 1e-12;
 /// How many of a number of rays or patches are wrong.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Count {
-    /// The number of wrong ones.
     pub wrong: u64,
-    /// The number of all.
     pub of: u64,
 }
 
 impl Count {
-    /// The sum of both.
     pub fn and(self, other: Count) -> Count {
         Count { wrong: self.wrong + other.wrong, of: self.of + other.of }
     }

@@ -1,21 +1,13 @@
 //! Stability cases: failures of ray-based radiosity, each as a small experiment that can be run. Each
 //! case has an expected result, which is compared with those of this program and of a naive method.
-//!
-//! - `cases`: a case as its file states it: an experiment, changes to its scene, what is right
-//! - `runs`: the runs of a case
-//! - `checks`: what is measured on the runs: rays, direct light, light
-//! - `naive`: naive methods, slow and used nowhere else
-//! - `finding`: a measured quantity with its bound
-//! - `suite`: finds and runs cases
-//! - `page`: the results as Markdown, CSV and SVG
 
-mod cases;
-mod checks;
-mod finding;
-mod naive;
-mod page;
-mod runs;
-mod suite;
+mod cases; // a case as its file states it: an experiment, changes to its scene, what is right
+mod checks; // what is measured on the runs: rays, direct light, light
+mod finding; // a measured quantity with its bound
+mod naive; // naive methods, slow and used nowhere else
+mod page; // the results as Markdown, CSV and SVG
+mod runs; // the runs of a case
+mod suite; // finds and runs cases
 
 pub use cases::case_schema;
 pub use finding::{Finding, Quantity};

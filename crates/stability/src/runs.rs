@@ -14,12 +14,10 @@ use crate::cases::change::Change;
 
 /// The runs of a case. Each is simulated when its outcome is first asked for.
 pub struct CaseRuns<'a> {
-    /// The case.
     pub case: &'a Case,
     /// All runs on the original scene, then all runs on each changed scene.
     pub list: Vec<CaseRun>,
     trials: Trials,
-    /// The file of the scene.
     pub scene_file: PathBuf,
 }
 
@@ -38,9 +36,6 @@ pub struct CaseRun {
 
 impl<'a> CaseRuns<'a> {
     /// Prepares a case. Fields of `overlay` replace those of its experiment; `path` is the case's file.
-    ///
-    /// # Errors
-    /// The fault for which the experiment is refused.
     pub fn new(
         case: &'a Case,
         document: &Document,
@@ -81,19 +76,11 @@ impl<'a> CaseRuns<'a> {
         self.trials.warnings()
     }
 
-    /// The outcome of a run.
-    ///
-    /// # Errors
-    /// The reason why the run did not end.
     pub fn outcome<'t>(&self, run: &'t CaseRun) -> Result<&'t Outcome, String> {
         let found = run.outcome.get_or_init(|| self.trials.outcome(run.number, &run.problem));
         found.as_ref().map_err(Clone::clone)
     }
 
-    /// All runs with their outcomes.
-    ///
-    /// # Errors
-    /// The reason why a run did not end.
     pub fn outcomes(&self) -> Result<Vec<(&CaseRun, &Outcome)>, String> {
         self.list.iter().map(|run| Ok((run, self.outcome(run)?))).collect()
     }

@@ -82,11 +82,9 @@ fn findings(case: &Case, document: &Document, path: &Path) -> Result<Vec<Finding
         };
         return Ok(vec![words("refused", part, message)]);
     }
-    let naive = match case.naive_settings.is_empty() {
-        true => None,
-        false => Some(CaseRuns::new(case, document, path, &case.naive_settings)?),
-    };
-    Ok(compare(&runs?, naive.as_ref()))
+    let under = |settings| CaseRuns::new(case, document, path, settings);
+    let settings = Some(&case.naive_settings).filter(|settings| !settings.is_empty());
+    Ok(compare(&runs?, settings.map(under).transpose()?.as_ref()))
 }
 
 /// All findings of a case, with those of its naive method: `naive` is the same case under naive settings.

@@ -2,20 +2,13 @@
 //!
 //! A [`Recording`] goes in, bytes come out. Times are virtual, in nanoseconds, rounded down.
 
-/// Numbers and names of activities.
-mod activities;
-/// Perfetto's packets.
-mod packets;
-/// The Pajé format.
-mod paje;
-/// The Perfetto format.
-mod perfetto;
-/// The encoding of protocol buffers.
-mod protobuf;
-/// Which messages are shown.
-mod sample;
-/// The events of one node in the order of time.
-mod track;
+mod activities; // numbers and names of activities
+mod packets; // Perfetto's packets
+mod paje; // the Pajé format
+mod perfetto; // the Perfetto format
+mod protobuf; // the encoding of protocol buffers
+mod sample; // which messages are shown
+mod track; // the events of one node in the order of time
 
 use virtwall::Recording;
 

@@ -78,7 +78,7 @@ pub(crate) struct Packets {
 /// Packets with a clock and a track of their own.
 pub(crate) struct Sequence {
     id: u64,
-    track: u64,
+    pub(crate) track: u64,
     last: u64,
 }
 
@@ -149,7 +149,6 @@ impl Packets {
         });
     }
 
-    /// The trace's bytes.
     pub(crate) fn finish(mut self) -> Vec<u8> {
         self.compress();
         self.written.0
@@ -173,12 +172,5 @@ impl Packets {
             Err(_) => self.written.0.extend(&self.chunk.0),
         }
         self.chunk.0.clear();
-    }
-}
-
-impl Sequence {
-    /// The track of its events.
-    pub(crate) fn track(&self) -> u64 {
-        self.track
     }
 }

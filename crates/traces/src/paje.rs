@@ -9,54 +9,31 @@ use virtwall::{Activity, Recording};
 
 use crate::activities::{activities, name, number};
 use crate::sample::Sample;
-use crate::track::{Event, NodeMessages, Track};
+use crate::track::{Event, Track};
 
 /// The events that the trace uses, and their fields after the event's number.
-const EVENTS: [(&str, &[&str]); 11] = [
-    ("PajeDefineContainerType", &["Alias string", "Type string", "Name string"]),
-    ("PajeDefineStateType", &["Alias string", "Type string", "Name string"]),
-    ("PajeDefineVariableType", &["Alias string", "Type string", "Name string", "Color color"]),
+const EVENTS: [(&str, &str); 11] = [
+    ("PajeDefineContainerType", "Alias string, Type string, Name string"),
+    ("PajeDefineStateType", "Alias string, Type string, Name string"),
+    ("PajeDefineVariableType", "Alias string, Type string, Name string, Color color"),
     (
         "PajeDefineLinkType",
-        &[
-            "Alias string",
-            "Type string",
-            "StartContainerType string",
-            "EndContainerType string",
-            "Name string",
-        ],
+        "Alias string, Type string, StartContainerType string, EndContainerType string, Name string",
     ),
-    ("PajeDefineEntityValue", &["Alias string", "Type string", "Name string", "Color color"]),
-    ("PajeSetState", &["Time date", "Type string", "Container string", "Value string"]),
-    ("PajeSetVariable", &["Time date", "Type string", "Container string", "Value double"]),
+    ("PajeDefineEntityValue", "Alias string, Type string, Name string, Color color"),
+    ("PajeSetState", "Time date, Type string, Container string, Value string"),
+    ("PajeSetVariable", "Time date, Type string, Container string, Value double"),
     (
         "PajeStartLink",
-        &[
-            "Time date",
-            "Type string",
-            "Container string",
-            "Value string",
-            "StartContainer string",
-            "Key string",
-            "Bytes int",
-        ],
+        "Time date, Type string, Container string, Value string, StartContainer string, \
+         Key string, Bytes int",
     ),
     (
         "PajeEndLink",
-        &[
-            "Time date",
-            "Type string",
-            "Container string",
-            "Value string",
-            "EndContainer string",
-            "Key string",
-        ],
+        "Time date, Type string, Container string, Value string, EndContainer string, Key string",
     ),
-    (
-        "PajeCreateContainer",
-        &["Time date", "Alias string", "Type string", "Container string", "Name string"],
-    ),
-    ("PajeDestroyContainer", &["Time date", "Type string", "Name string"]),
+    ("PajeCreateContainer", "Time date, Alias string, Type string, Container string, Name string"),
+    ("PajeDestroyContainer", "Time date, Type string, Name string"),
 ];
 const SET_STATE: usize = 5;
 const SET_VARIABLE: usize = 6;
@@ -88,23 +65,18 @@ const RUN: Alias = Alias(1);
 /// letters and times in nanoseconds.
 pub(crate) fn encode(recording: &Recording, title: &str, sample: Sample) -> Vec<u8> {
     let mut text = definitions();
-    let last = recording.nodes.len() - 1;
     let title = sample.caption(title).replace('"', "'");
     let _ = writeln!(text, "{CREATE_CONTAINER} 0 {RUN} R 0 \"{title}\"");
-    for rank in 0..=last {
-        let name = if rank == last { "service node".to_owned() } else { format!("node {rank}") };
-        let _ = writeln!(text, "{CREATE_CONTAINER} 0 {} N {RUN} \"{name}\"", node(rank));
-    }
     let mut lines = Lines::default();
-    for (rank, numbers) in NodeMessages::of(recording).iter().enumerate() {
-        let record = &recording.nodes[rank];
-        let track = Track { messages: &recording.messages, node: record, numbers, sample };
-        states(&mut lines, &node(rank), &track);
+    for track in Track::all(recording, sample) {
+        let (node, name) = (node(track.rank), track.name());
+        let _ = writeln!(text, "{CREATE_CONTAINER} 0 {node} N {RUN} \"{name}\"");
+        states(&mut lines, &node, &track);
     }
     powers(&mut lines, recording);
     messages(&mut lines, recording, sample);
     let end = lines.write(&mut text);
-    for rank in 0..=last {
+    for rank in 0..recording.nodes.len() {
         let _ = writeln!(text, "{DESTROY_CONTAINER} {} N {}", Seconds(end), node(rank));
     }
     let _ = writeln!(text, "{DESTROY_CONTAINER} {} R {RUN}", Seconds(end));
@@ -115,7 +87,7 @@ fn definitions() -> String {
     let mut text = String::new();
     for (number, (name, fields)) in EVENTS.iter().enumerate() {
         let _ = writeln!(text, "%EventDef {name} {number}");
-        fields.iter().for_each(|field| _ = writeln!(text, "% {field}"));
+        fields.split(", ").for_each(|field| _ = writeln!(text, "% {field}"));
         text += "%EndEventDef\n";
     }
     text += TYPES;

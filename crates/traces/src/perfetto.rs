@@ -7,9 +7,8 @@ use crate::activities::{activities, name, number};
 use crate::packets::{Packets, Sequence, field};
 use crate::protobuf::Fields;
 use crate::sample::Sample;
-use crate::track::{Event, NodeMessages, Track};
+use crate::track::{Event, Track};
 
-/// Types of events.
 const BEGIN: u64 = 1;
 const END: u64 = 2;
 const INSTANT: u64 = 3;
@@ -21,10 +20,8 @@ const BY_RANK: u64 = 3;
 /// The track that holds all others.
 const RUN: u64 = 1;
 
-/// The categories of activities.
 const CATEGORIES: [&str; 3] = ["compute", "overhead", "paging"];
 
-/// Annotations of events.
 #[derive(Clone, Copy)]
 enum Note {
     Bytes,
@@ -34,36 +31,24 @@ enum Note {
     Patch,
 }
 
-impl Note {
-    const ALL: [(Note, &str); 5] = [
-        (Note::Bytes, "bytes"),
-        (Note::BlockedNs, "blocked_ns"),
-        (Note::Environment, "environment"),
-        (Note::SourceEnvironment, "source_environment"),
-        (Note::Patch, "patch"),
-    ];
-}
+/// The names of annotations.
+const NOTES: [&str; 5] = ["bytes", "blocked_ns", "environment", "source_environment", "patch"];
 
-/// The file's bytes.
 pub(crate) fn encode(recording: &Recording, title: &str, sample: Sample) -> Vec<u8> {
     let mut packets = Packets::default();
     let ordered = |track: &mut Fields| track.number(field::TRACK_CHILD_ORDERING, BY_RANK);
     packets.track((RUN, 0), &sample.caption(title), ordered);
     power(&mut packets, 2, "unshot power", recording, |energy| energy.unshot);
     power(&mut packets, 3, "power in transit", recording, |energy| energy.in_transit);
-    for (rank, numbers) in NodeMessages::of(recording).iter().enumerate() {
-        let node = &recording.nodes[rank];
-        let track = Track { messages: &recording.messages, node, numbers, sample };
-        write_track(&mut packets, rank, &track, rank + 1 == recording.nodes.len());
-    }
+    Track::all(recording, sample).for_each(|node| write_track(&mut packets, &node));
     packets.finish()
 }
 
 /// A node's track, and below it the length of its queue.
-fn write_track(packets: &mut Packets, rank: usize, node: &Track, is_service_node: bool) {
-    let track = 10 + 2 * rank as u64;
-    let name = if is_service_node { "service node".to_owned() } else { format!("node {rank}") };
-    packets.track((track, RUN), &name, |track| track.number(field::TRACK_RANK, rank as u64 + 10));
+fn write_track(packets: &mut Packets, node: &Track) {
+    let rank = node.rank as u64;
+    let track = 10 + 2 * rank;
+    packets.track((track, RUN), &node.name(), |track| track.number(field::TRACK_RANK, rank + 10));
     let mut sequence = packets.sequence(track, intern);
     let mut shots = node.node.shots.iter().peekable();
     for (time, kind) in node.events(false) {
@@ -108,8 +93,8 @@ fn write_queue(packets: &mut Packets, parent: &Sequence, node: &Track) {
     if changes.peek().is_none() {
         return;
     }
-    let track = parent.track() + 1;
-    packets.track((track, parent.track()), "queue", |track| counter(track, "sources"));
+    let track = parent.track + 1;
+    packets.track((track, parent.track), "queue", |track| counter(track, "sources"));
     let mut sequence = packets.sequence(track, |_| ());
     for (_, &(time, length)) in changes {
         packets.event(&mut sequence, time, |event| {
@@ -198,7 +183,7 @@ fn intern(data: &mut Fields) {
     for (id, category) in (1..).zip(CATEGORIES) {
         entry(field::INTERNED_CATEGORIES, id, category);
     }
-    for (note, name) in Note::ALL {
-        entry(field::INTERNED_ANNOTATIONS, note as u64 + 1, name);
+    for (id, note) in (1..).zip(NOTES) {
+        entry(field::INTERNED_ANNOTATIONS, id, note);
     }
 }

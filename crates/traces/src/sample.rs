@@ -14,11 +14,6 @@ impl Sample {
         Sample(n.max(1))
     }
 
-    /// Whether nothing is left out.
-    pub(crate) fn is_complete(self) -> bool {
-        self == Sample::ALL
-    }
-
     /// Whether the message or change of this number is shown.
     pub(crate) fn holds(self, number: usize) -> bool {
         number.is_multiple_of(self.0 as usize)

@@ -5,31 +5,6 @@ use virtwall::{Activity, MessageRecord, NodeRecord, Recording, Span};
 
 use crate::sample::Sample;
 
-/// Numbers of the messages that a node sent and read, in the order of time.
-#[derive(Clone, Default)]
-pub(crate) struct NodeMessages {
-    sent: Vec<usize>,
-    read: Vec<usize>,
-}
-
-impl NodeMessages {
-    /// The messages of every node, by rank.
-    pub(crate) fn of(recording: &Recording) -> Vec<NodeMessages> {
-        let mut nodes = vec![NodeMessages::default(); recording.nodes.len()];
-        for (number, message) in recording.messages.iter().enumerate() {
-            nodes[message.from as usize].sent.push(number);
-            if message.read.is_some() {
-                nodes[message.to as usize].read.push(number);
-            }
-        }
-        for node in &mut nodes {
-            node.read.sort_by_key(|&number| recording.messages[number].read);
-        }
-        nodes
-    }
-}
-
-/// An event of a node.
 pub(crate) enum Event<'a> {
     /// The span that began last ends.
     End,
@@ -41,25 +16,53 @@ pub(crate) enum Event<'a> {
     Read(usize),
 }
 
-/// A node with its messages.
 pub(crate) struct Track<'a> {
-    pub(crate) messages: &'a [MessageRecord],
+    pub(crate) rank: usize,
     pub(crate) node: &'a NodeRecord,
-    pub(crate) numbers: &'a NodeMessages,
     pub(crate) sample: Sample,
+    /// Those of all nodes.
+    pub(crate) messages: &'a [MessageRecord],
+    /// Numbers of those that the node sent, in the order of time.
+    sent: Vec<usize>,
+    /// Numbers of those that it read, in the order of time.
+    read: Vec<usize>,
+    is_service_node: bool,
 }
 
 impl<'a> Track<'a> {
+    /// Every node, by rank.
+    pub(crate) fn all(recording: &'a Recording, sample: Sample) -> impl Iterator<Item = Track<'a>> {
+        let messages = &recording.messages[..];
+        let mut sent = vec![Vec::new(); recording.nodes.len()];
+        let mut read = sent.clone();
+        for (number, message) in messages.iter().enumerate() {
+            sent[message.from as usize].push(number);
+            if message.read.is_some() {
+                read[message.to as usize].push(number);
+            }
+        }
+        read.iter_mut().for_each(|read| read.sort_by_key(|&number| messages[number].read));
+        let nodes = recording.nodes.iter().zip(sent.into_iter().zip(read)).enumerate();
+        nodes.map(move |(rank, (node, (sent, read)))| {
+            let is_service_node = rank + 1 == recording.nodes.len();
+            Track { rank, node, sample, messages, sent, read, is_service_node }
+        })
+    }
+
+    pub(crate) fn name(&self) -> String {
+        if self.is_service_node { "service node".to_owned() } else { format!("node {}", self.rank) }
+    }
+
     /// All events, in the order of time, with spans of waiting only if `waits`. Spans that the sample
     /// leaves out count as waiting.
     ///
     /// A message belongs to the span that begins when it is sent or read. With a coprocessor, or where
     /// messages cost nothing, there is no such span, and the message is an event of its own.
-    pub(crate) fn events(&self, waits: bool) -> Vec<(Time, Event<'a>)> {
+    pub(crate) fn events(&self, waits: bool) -> Vec<(Time, Event<'_>)> {
         let sent_at = |number: usize| self.messages[number].sent;
         let read_at = |number: usize| self.messages[number].read.unwrap_or(Time::MAX);
-        let mut sent = Queue { rest: &self.numbers.sent, time: sent_at, skipped: Vec::new() };
-        let mut read = Queue { rest: &self.numbers.read, time: read_at, skipped: Vec::new() };
+        let mut sent = Queue { rest: &self.sent, time: sent_at, skipped: Vec::new() };
+        let mut read = Queue { rest: &self.read, time: read_at, skipped: Vec::new() };
         // Either all nodes of a machine have coprocessors, or none has.
         let handed_over = self.messages.first().is_some_and(|message| message.handed_over);
         let mut events = Vec::new();
@@ -70,7 +73,7 @@ impl<'a> Track<'a> {
                 _ => &[],
             };
             let is_message = matches!(activity, Activity::Send(_) | Activity::Receive);
-            let shown = self.sample.is_complete()
+            let shown = self.sample == Sample::ALL
                 || !is_message
                 || numbers.iter().any(|&number| self.sample.holds(number));
             let activity = if shown { activity } else { Activity::Wait };

@@ -33,13 +33,13 @@ pub struct Broadcast {
     known_shots: BTreeMap<ShotKey, u64>,
     emitters: Emitters,
     under_way: BTreeMap<u64, (Time, SentMessage)>,
-    /// What happened since the last part, besides spans.
-    shots: Vec<NewShot>,
+    /// What happened since the last part, besides spans. Of shots the rank, their number, that of the
+    /// emitter, the length of the queue and the bytes of memory.
+    shots: Vec<[u64; 5]>,
     hits: Vec<RecordedShot>,
     messages: Vec<MessageRow>,
 }
 
-/// The current state of a node.
 #[derive(Clone, Default)]
 struct Node {
     /// What it did since the last part, without waiting.
@@ -54,14 +54,6 @@ struct Node {
     /// The length of its queue when it selected.
     queue_left: u64,
     /// Bytes.
-    memory: u64,
-}
-
-struct NewShot {
-    rank: Rank,
-    number: u64,
-    emitter: u64,
-    queue: u64,
     memory: u64,
 }
 
@@ -97,11 +89,9 @@ impl Broadcast {
         columns.ints([nanoseconds(self.now)]);
         self.span_columns(&mut columns);
         let shots = std::mem::take(&mut self.shots);
-        columns.ints(shots.iter().map(|shot| shot.rank as u64));
-        columns.ints(shots.iter().map(|shot| shot.number));
-        columns.ints(shots.iter().map(|shot| shot.emitter));
-        columns.ints(shots.iter().map(|shot| shot.queue));
-        columns.ints(shots.iter().map(|shot| shot.memory));
+        for field in 0..5 {
+            columns.ints(shots.iter().map(|shot| shot[field]));
+        }
         self.emitters.columns(&mut columns);
         let hits = std::mem::take(&mut self.hits);
         shot_columns(&hits.iter().collect::<Vec<_>>(), self.unit, &mut columns);
@@ -126,10 +116,11 @@ impl Broadcast {
         columns.ints(states);
         columns.ints(gaps);
         columns.ints(lengths);
-        let selected = || self.nodes.iter().map(|node| node.selected);
-        columns.ints(selected().map(|selected| selected.map_or(0, |(state, _)| state as u64 + 1)));
-        columns
-            .ints(selected().map(|selected| selected.map_or(0, |(_, since)| nanoseconds(since))));
+        let selected = self.nodes.iter().map(|node| node.selected);
+        let selected =
+            selected.map(|of| of.map_or((0, 0), |(state, at)| (state as u64 + 1, nanoseconds(at))));
+        columns.ints(selected.clone().map(|(state, _)| state));
+        columns.ints(selected.map(|(_, since)| since));
     }
 }
 
@@ -182,8 +173,7 @@ impl Observer for Broadcast {
         let next = self.known_shots.len() as u64;
         let number = *self.known_shots.entry(shot.key).or_insert(next);
         let emitter = self.emitters.number(shot.emitter, shot.power);
-        let (queue, memory) = (node.queue_left, node.memory);
-        self.shots.push(NewShot { rank, number, emitter, queue, memory });
+        self.shots.push([rank as u64, number, emitter, node.queue_left, node.memory]);
         if number == next {
             self.hits.push(shot);
         }

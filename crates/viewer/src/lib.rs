@@ -3,16 +3,11 @@
 //!
 //! The page needs nothing but a browser. `assets/` holds its program, in plain JavaScript.
 
-/// An observer that packs a run in parts while it is under way.
-mod broadcast;
-/// Why a run took as long as it did: time per node, critical path, answers in words.
-mod explain;
-/// Runs as blocks of data for the page.
-mod pack;
-/// The parts of an HTML page: of a report, and of a page that follows runs while they are under way.
-mod page;
-/// What is recorded of a run.
-mod record;
+mod broadcast; // an observer that packs a run in parts while it is under way
+mod explain; // why a run took as long as it did: time per node, critical path, answers in words
+mod pack; // runs as blocks of data for the page
+mod page; // the parts of an HTML page: of a report, and of a page that follows runs under way
+mod record; // what is recorded of a run
 #[cfg(test)]
 mod tests;
 

@@ -21,22 +21,20 @@ use crate::record::{LightRecording, NodeState, RecordedRun};
 
 const PROCESSORS: usize = 5;
 
-fn root() -> &'static Path {
-    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
-}
+const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 
 fn machine() -> Machine {
     machine_of("paragon-xps.json")
 }
 
 fn machine_of(name: &str) -> Machine {
-    let path = root().join("machines").join(name);
+    let path = Path::new(ROOT).join("machines").join(name);
     Machine::from_json(&std::fs::read_to_string(path).unwrap(), name).unwrap()
 }
 
 /// A room with one lamp, cut into eight.
 fn problem() -> Arc<Problem> {
-    let (scene, _) = radiosity::load_obj(&root().join("scenes/room4.obj")).unwrap();
+    let (scene, _) = radiosity::load_obj(&Path::new(ROOT).join("scenes/room4.obj")).unwrap();
     let options = ProblemOptions {
         patch_size: PatchSize { reflector: 1.0, emitter: 0.5 },
         cells: [4, 4, 4],

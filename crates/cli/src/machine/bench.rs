@@ -7,6 +7,7 @@ use clap::Args;
 use desim::Time;
 use lab::{MachineFile, Plot, Table};
 use multicomputer::{KernelError, Machine, Network, NetworkModel, exchange, hot_spot, ping_pong};
+use serde_json::json;
 
 use super::network::NetworkArgument;
 use crate::exit::Exit;
@@ -19,7 +20,6 @@ const LONGEST_OF_FLITS: u64 = 4_096;
 /// Messages each way, and rounds.
 const ROUNDS: u32 = 10;
 
-/// Which machine.
 #[derive(Args)]
 pub struct Arguments {
     /// Name of a machine, or path to a machine file
@@ -115,19 +115,8 @@ fn draw(table: &Table, out: &Path) -> Result<(), Exit> {
         ("exchange_microseconds", "Exchange of every node with four neighbours"),
         ("hot_spot_microseconds", "All nodes to one: time per message"),
     ] {
-        let plot = Plot {
-            x: "bytes".to_owned(),
-            y: y.to_owned(),
-            series: None,
-            title: Some(title.to_owned()),
-            log_x: true,
-            log_y: true,
-            pareto: false,
-            mark: std::collections::BTreeMap::new(),
-            mark_name: None,
-            power_law: false,
-            file: None,
-        };
+        let plot = json!({ "x": "bytes", "y": y, "title": title, "log_x": true, "log_y": true });
+        let plot: Plot = serde_json::from_value(plot).map_err(Exit::failure)?;
         write(&out.join(format!("{}.svg", plot.stem())), lab::svg(table, &plot))?;
     }
     Ok(())

@@ -19,7 +19,6 @@ const SATURATED: f64 = 3.0;
 /// Expected agreement of the two below saturation.
 const NEAR: f64 = 0.15;
 
-/// Which network, under which load.
 #[derive(Args)]
 pub struct Arguments {
     /// Name of a machine, or path to a machine file
@@ -108,12 +107,10 @@ fn measure(
     let load = Load { pattern, bytes, every, until: Time::ZERO + every * messages, seed };
     let trace = load.trace(topology, nodes);
     let on = |model| {
-        let mut network = parameters.build(model, topology).ok_or("no such network")?;
-        let replayed =
-            replay(&trace, network.as_mut(), topology).map_err(|error| error.to_string())?;
-        Ok::<_, String>(Measured::of(&load, &trace, &replayed))
+        let network = parameters.build(model, topology);
+        let mut network = network.ok_or_else(|| Exit::failure("no such network"))?;
+        let replayed = replay(&trace, network.as_mut(), topology).map_err(Exit::failure)?;
+        Ok::<_, Exit>(Measured::of(&load, &trace, &replayed))
     };
-    let both =
-        on(NetworkModel::Wormhole).and_then(|wormhole| Ok([wormhole, on(NetworkModel::Flit)?]));
-    both.map_err(Exit::failure)
+    Ok([on(NetworkModel::Wormhole)?, on(NetworkModel::Flit)?])
 }

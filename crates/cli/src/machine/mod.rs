@@ -10,7 +10,6 @@ use clap::Subcommand;
 
 use crate::exit::Exit;
 
-/// What to do with a machine.
 #[derive(Subcommand)]
 pub enum Command {
     /// Print a machine, the provenance of its numbers, and a drawing of it
@@ -23,7 +22,6 @@ pub enum Command {
     Replay(replay::Arguments),
 }
 
-/// Returns what to print.
 pub fn run(command: &Command) -> Result<String, Exit> {
     match command {
         Command::Show(arguments) => show::run(arguments),

@@ -3,7 +3,6 @@
 use clap::Args;
 use multicomputer::{Machine, NetworkModel};
 
-/// Which model of a machine's network to use.
 #[derive(Args)]
 pub struct NetworkArgument {
     /// Network model: ideal, loggp, wormhole or flit [default: the machine file's]

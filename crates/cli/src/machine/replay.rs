@@ -12,7 +12,6 @@ use super::network::NetworkArgument;
 use crate::exit::Exit;
 use crate::files::write;
 
-/// Which messages, and over which network.
 #[derive(Args)]
 pub struct Arguments {
     /// The messages: a JSON list of {"id", "at", "from", "to", "bytes", "after"}

@@ -9,7 +9,6 @@ use serde_json::Value;
 
 use crate::exit::Exit;
 
-/// Which machine.
 #[derive(Args)]
 pub struct Arguments {
     /// Name of a machine, or path to a machine file

@@ -8,7 +8,6 @@ use scenemaker::{MOST_TABLES, SceneKind, SceneText};
 use crate::exit::Exit;
 use crate::files::make_folder;
 
-/// What to make.
 #[derive(Args)]
 pub struct Arguments {
     /// office, rooms or building (the paper's), room4, corridor, hole or cornell (small ones)

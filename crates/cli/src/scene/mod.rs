@@ -5,9 +5,9 @@ mod show;
 
 use clap::Subcommand;
 
+pub use self::show::meshed;
 use crate::exit::Exit;
 
-/// What to do with a scene.
 #[derive(Subcommand)]
 pub enum Command {
     /// Write one of the scenes of RR-3008 (section 5.1) or a small one, as OBJ and MTL files
@@ -16,7 +16,6 @@ pub enum Command {
     Show(show::Arguments),
 }
 
-/// Returns what to print.
 pub fn run(command: &Command) -> Result<String, Exit> {
     match command {
         Command::Make(arguments) => make::run(arguments),

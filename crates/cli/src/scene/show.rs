@@ -20,7 +20,6 @@ const MOST_SHOTS: u64 = 5_000;
 /// Rays per shot for a picture.
 const PIXELS: u32 = 4_096;
 
-/// Which scene, and what to draw of it.
 #[derive(Args)]
 pub struct Arguments {
     /// Name of a scene, or path to a scene description (.json) or an OBJ file
@@ -56,7 +55,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
 }
 
 /// The scene in its grid, meshed as one environment.
-fn meshed(open: &OpenScene) -> (Space, LocalEnvironment) {
+pub fn meshed(open: &OpenScene) -> (Space, LocalEnvironment) {
     let space = Space::new(open.scene.clone(), open.cells);
     let size = PatchSize { reflector: open.patch_size, emitter: open.emitter_patch_size };
     let whole = LocalEnvironment::new(&space, space.grid.whole(), size);

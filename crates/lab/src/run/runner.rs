@@ -283,7 +283,7 @@ impl Shared<'_> {
         let recording = recording.and_then(Rc::into_inner).map(RefCell::into_inner);
         // Also for a run that failed: it is needed most there.
         let traced =
-            match (traces, light.as_ref().map(LightRecording::recording).or(recording.as_ref())) {
+            match (traces, light.as_ref().map(|light| &light.recording).or(recording.as_ref())) {
                 (Some(traces), Some(recording)) => traces.write(self.plan, task.run, recording),
                 _ => Ok(()),
             };

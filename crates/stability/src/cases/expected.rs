@@ -53,21 +53,3 @@ pub struct Exact {
     #[serde(default, rename = "or_told")]
     pub or_unshot: bool,
 }
-
-impl Expected {
-    /// Whether there is a bound for the measure of this name.
-    pub fn asks(&self, measure: &str) -> bool {
-        match measure {
-            "leaks" => self.leaks.is_some(),
-            "astray" => self.astray.is_some(),
-            "owners" => self.owners.is_some(),
-            "torn" => self.torn.is_some(),
-            "dark" => self.dark.is_some(),
-            "closure" => self.closure.is_some(),
-            "brightest" => self.brightest.is_some(),
-            "exact" => self.exact.is_some(),
-            "no_numbers" => self.no_numbers.is_some(),
-            _ => false,
-        }
-    }
-}

@@ -1,13 +1,8 @@
 //! Cases as their files state them.
-//!
-//! - `case`: the file
-//! - `change`: changes to the scene that must not change its light
-//! - `expected`: what is right
-//! - `naive_method`: names of naive methods
 
-pub mod case;
-pub mod change;
-pub mod expected;
-pub mod naive_method;
+pub mod case; // the file
+pub mod change; // changes to the scene that must not change its light
+pub mod expected; // what is right
+pub mod naive_method; // names of naive methods
 
 pub use case::case_schema;

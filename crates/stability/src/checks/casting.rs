@@ -4,6 +4,7 @@ use radiosity::glam::DVec3;
 use radiosity::{Emitter, End, Mask, Ray, Rgb, Shot, Side, Work, cast, shoot};
 use virtwall::Problem;
 
+use crate::finding::Count;
 use crate::runs::{CaseRun, CaseRuns};
 
 /// Patches of a run as sources, chosen evenly from all. Together they cast about as many rays as the case
@@ -85,8 +86,25 @@ pub fn shoot_through(problem: &Problem, source: &Emitter, mut seen: impl FnMut(u
     }
 }
 
-/// The end of a ray that is followed from environment to environment.
-pub fn follow(problem: &Problem, source: &Emitter, ray: &Ray) -> End {
+/// Of all rays, at most about `most` a run, those that are wrong.
+pub fn wrong_rays(
+    runs: &CaseRuns,
+    most: u64,
+    is_wrong: impl Fn(&Problem, &Emitter, &Ray) -> bool,
+) -> Count {
+    let mut count = Count::default();
+    for run in &runs.list {
+        for source in sources(runs, run, most) {
+            let rays = rays(runs, &run.problem, &source);
+            let wrong = rays.iter().filter(|ray| is_wrong(&run.problem, &source, ray)).count();
+            count = count.and(Count { wrong: wrong as u64, of: rays.len() as u64 });
+        }
+    }
+    count
+}
+
+/// The polygon and the distance at which this program ends a ray, from environment to environment.
+pub fn follow(problem: &Problem, source: &Emitter, ray: &Ray) -> Option<(u32, f64)> {
     let mut environment = source.environment;
     loop {
         let here = &problem.environments[environment as usize];
@@ -94,7 +112,8 @@ pub fn follow(problem: &Problem, source: &Emitter, ray: &Ray) -> End {
             End::Leaves(side) if here.has_neighbour(side) => {
                 environment = problem.decomposition.neighbour(environment, side);
             }
-            end => return end,
+            End::Leaves(_) => return None,
+            End::Hit { polygon, distance } => return Some((polygon, distance)),
         }
     }
 }

@@ -15,7 +15,7 @@ pub fn lamps_and_others(runs: &CaseRuns, run: &CaseRun) -> (Vec<Emitter>, Vec<Em
 }
 
 /// Whether a patch sees the centre of a lamp.
-pub fn sees(problem: &Problem, patch: &Emitter, lamp: &Emitter) -> bool {
+fn sees(problem: &Problem, patch: &Emitter, lamp: &Emitter) -> bool {
     let away = lamp.centre - patch.centre;
     let Some(direction) = away.try_normalize() else { return false };
     if direction.dot(patch.normal) <= 1e-6 || direction.dot(lamp.normal) >= -1e-6 {
@@ -24,20 +24,31 @@ pub fn sees(problem: &Problem, patch: &Emitter, lamp: &Emitter) -> bool {
     our_polygon(problem, patch, &Ray::new(patch.centre, direction)) == Some(lamp.polygon)
 }
 
-/// Patches that see a lamp but are hit by none of its rays.
-pub fn dark(runs: &CaseRuns) -> Count {
+/// Patches that see a lamp; `dark` counts those to which it brings no light.
+pub fn dark_patches(
+    runs: &CaseRuns,
+    dark: impl Fn(&Problem, &Emitter, &[&Emitter]) -> usize,
+) -> Count {
     let mut count = Count::default();
     for run in &runs.list {
         let (lamps, others) = lamps_and_others(runs, run);
         for lamp in &lamps {
-            let found = form_factors(&run.problem, lamp);
-            for patch in others.iter().filter(|patch| sees(&run.problem, patch, lamp)) {
-                let dark = found[patch.environment as usize][patch.patch as usize] == 0.0;
-                count = count.and(Count { wrong: u64::from(dark), of: 1 });
-            }
+            let patches = others.iter().filter(|patch| sees(&run.problem, patch, lamp));
+            let patches: Vec<&Emitter> = patches.collect();
+            let wrong = dark(&run.problem, lamp, &patches) as u64;
+            count = count.and(Count { wrong, of: patches.len() as u64 });
         }
     }
     count
+}
+
+/// Patches that see a lamp but are hit by none of its rays.
+pub fn dark(runs: &CaseRuns) -> Count {
+    dark_patches(runs, |problem, lamp, patches| {
+        let found = form_factors(problem, lamp);
+        let found = |patch: &Emitter| found[patch.environment as usize][patch.patch as usize];
+        patches.iter().filter(|patch| found(patch) == 0.0).count()
+    })
 }
 
 /// Form factors by rays from a source to all patches, by environment and patch.

@@ -10,9 +10,6 @@ use crate::cases::expected::Exact;
 use crate::runs::{CaseRun, CaseRuns};
 
 /// Greatest share of the emitted energy that is unaccounted for.
-///
-/// # Errors
-/// The reason why a run did not end; the same in all functions of this file.
 pub fn closure(runs: &CaseRuns) -> Result<f64, String> {
     let outcomes = runs.outcomes()?;
     Ok(outcomes.iter().map(|(_, outcome)| outcome.energy.error()).fold(0.0, worse))
@@ -27,23 +24,19 @@ fn worse(one: f64, other: f64) -> f64 {
 pub fn brightest(runs: &CaseRuns) -> Result<f64, String> {
     let mut brightest: f64 = 0.0;
     for (run, outcome) in runs.outcomes()? {
-        let most = emissions(&run.problem).flatten().fold(0.0, f64::max);
-        let pairs = outcome.radiosity.iter().flatten().zip(emissions(&run.problem).flatten());
+        let most = emissions(&run.problem).fold(0.0, f64::max);
+        let pairs = outcome.radiosity.iter().flatten().zip(emissions(&run.problem));
         let reflected = pairs.map(|(radiosity, emission)| (radiosity.x - emission) / most);
         brightest = reflected.fold(brightest, worse);
     }
     Ok(brightest)
 }
 
-/// Emitted radiosity of each patch, red channel, by environment, W/m².
-pub fn emissions(problem: &Problem) -> impl Iterator<Item = Vec<f64>> {
+/// Emitted radiosity of each patch, red channel, W/m².
+pub fn emissions(problem: &Problem) -> impl Iterator<Item = f64> {
     let scene = &problem.space.scene;
-    problem.environments.iter().map(move |environment| {
-        let of = |patch: &radiosity::Patch| {
-            scene.material(&scene.polygons[patch.polygon as usize]).emission.x
-        };
-        environment.patches.iter().map(of).collect()
-    })
+    let patches = problem.environments.iter().flat_map(|environment| &environment.patches);
+    patches.map(|patch| scene.material(&scene.polygons[patch.polygon as usize]).emission.x)
 }
 
 /// The number of radiosities that are not finite.

@@ -2,35 +2,32 @@
 
 use std::collections::BTreeMap;
 
-use radiosity::{Emitter, End, Mask, Ray};
+use radiosity::{Emitter, Mask, Ray};
 use virtwall::Problem;
 
-use crate::checks::casting::{follow, nearest, rays, shoot_through, sources};
+use crate::checks::casting::{follow, nearest, rays, shoot_through, sources, wrong_rays};
 use crate::finding::Count;
 use crate::runs::CaseRuns;
 
 /// Rays that leave closed scenes.
 pub fn leaks(runs: &CaseRuns) -> Count {
+    if runs.case.aimed {
+        return wrong_rays(runs, u64::MAX, |problem, source, ray| {
+            follow(problem, source, ray).is_none()
+        });
+    }
     let mut count = Count::default();
     for run in &runs.list {
+        let pixels = run.problem.hemisphere.pixels();
         for source in sources(runs, run, u64::MAX) {
-            count = count.and(if runs.case.aimed {
-                let rays = rays(runs, &run.problem, &source);
-                let leaks = |ray: &&Ray| ours(&run.problem, &source, ray).is_none();
-                Count { wrong: rays.iter().filter(leaks).count() as u64, of: rays.len() as u64 }
-            } else {
-                shot_leaks(&run.problem, &source)
-            });
+            // All pixels have the same form factor.
+            let mut lost = 0.0;
+            shoot_through(&run.problem, &source, |_, shot, _| lost += shot.escaped);
+            let wrong = (lost * f64::from(pixels)).round() as u64;
+            count = count.and(Count { wrong, of: u64::from(pixels) });
         }
     }
     count
-}
-
-/// The same for the hemisphere of one source, whose pixels all have the same form factor.
-fn shot_leaks(problem: &Problem, source: &Emitter) -> Count {
-    let (mut lost, pixels) = (0.0, problem.hemisphere.pixels());
-    shoot_through(problem, source, |_, shot, _| lost += shot.escaped);
-    Count { wrong: (lost * f64::from(pixels)).round() as u64, of: u64::from(pixels) }
 }
 
 /// Pixels that end not at all or more than once over all environments.
@@ -58,28 +55,20 @@ pub fn astray(
     most: u64,
     ends: impl Fn(&Problem, &Emitter, &Ray) -> Option<f64>,
 ) -> Count {
-    let mut count = Count::default();
-    for run in &runs.list {
-        let (problem, tolerance) = (&*run.problem, run.problem.space.scene.tolerance());
-        for source in sources(runs, run, most) {
-            for ray in rays(runs, problem, &source) {
-                let right = match (nearest(problem, &source, &ray), ends(problem, &source, &ray)) {
-                    (Some(nearest), Some(end)) => (end - nearest).abs() <= tolerance,
-                    (nearest, end) => nearest.is_none() && end.is_none(),
-                };
-                count = count.and(Count { wrong: u64::from(!right), of: 1 });
+    wrong_rays(runs, most, |problem, source, ray| {
+        match (nearest(problem, source, ray), ends(problem, source, ray)) {
+            (Some(nearest), Some(end)) => {
+                let right = (end - nearest).abs() <= problem.space.scene.tolerance();
+                !right
             }
+            (nearest, end) => nearest.is_some() || end.is_some(),
         }
-    }
-    count
+    })
 }
 
 /// The distance at which this program ends a ray.
 pub fn ours(problem: &Problem, source: &Emitter, ray: &Ray) -> Option<f64> {
-    match follow(problem, source, ray) {
-        End::Hit { distance, .. } => Some(distance),
-        End::Leaves(_) => None,
-    }
+    follow(problem, source, ray).map(|(_, distance)| distance)
 }
 
 /// Of the rays that meet several polygons of one plane at once, those that end on another polygon than the
@@ -122,8 +111,5 @@ fn met_at_once(problem: &Problem, source: &Emitter, ray: &Ray) -> Vec<u32> {
 
 /// The polygon on which this program ends a ray.
 pub fn our_polygon(problem: &Problem, source: &Emitter, ray: &Ray) -> Option<u32> {
-    match follow(problem, source, ray) {
-        End::Hit { polygon, .. } => Some(polygon),
-        End::Leaves(_) => None,
-    }
+    follow(problem, source, ray).map(|(polygon, _)| polygon)
 }

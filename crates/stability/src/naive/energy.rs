@@ -71,7 +71,7 @@ fn solve(runs: &CaseRuns, run: &CaseRun, change: &impl Fn(&mut Vec<f64>)) -> Vec
             row
         })
         .collect();
-    let emission: Vec<f64> = emissions(problem).flatten().collect();
+    let emission: Vec<f64> = emissions(problem).collect();
     let reflectance: Vec<f64> = patches
         .iter()
         .map(|patch| scene.material(&scene.polygons[patch.polygon as usize]).reflectance.x)

@@ -5,7 +5,7 @@ use std::fs;
 use radiosity::glam::DVec3;
 
 use crate::cases::naive_method::MAX_RAYS;
-use crate::checks::casting::{rays, sources};
+use crate::checks::casting::wrong_rays;
 use crate::finding::Count;
 use crate::runs::CaseRuns;
 
@@ -57,17 +57,10 @@ impl Face {
 /// Rays that hit no face.
 pub fn leaks(runs: &CaseRuns) -> Result<Count, String> {
     let faces = read(runs)?;
-    let mut count = Count::default();
-    for run in &runs.list {
-        let origin = run.problem.space.scene.origin;
-        for source in sources(runs, run, MAX_RAYS) {
-            for ray in rays(runs, &run.problem, &source) {
-                let hit = |face: &Face| face.is_hit(ray.origin + origin, ray.direction);
-                count = count.and(Count { wrong: u64::from(!faces.iter().any(hit)), of: 1 });
-            }
-        }
-    }
-    Ok(count)
+    Ok(wrong_rays(runs, MAX_RAYS, |problem, _, ray| {
+        let origin = ray.origin + problem.space.scene.origin;
+        !faces.iter().any(|face| face.is_hit(origin, ray.direction))
+    }))
 }
 
 /// The number of normals that are NaN.

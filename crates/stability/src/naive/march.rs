@@ -4,7 +4,7 @@ use radiosity::{Bounds, Ray, Side};
 use virtwall::Problem;
 
 use crate::cases::naive_method::MAX_RAYS;
-use crate::checks::casting::{nearest, rays, sources};
+use crate::checks::casting::{nearest, wrong_rays};
 use crate::finding::Count;
 use crate::runs::CaseRuns;
 
@@ -24,23 +24,15 @@ const MOST_ENDS: u32 = 64;
 
 /// Rays that end not at all or more than once.
 pub fn owners(runs: &CaseRuns, interface: Interface) -> Count {
-    let mut count = Count::default();
-    for run in &runs.list {
-        for source in sources(runs, run, MAX_RAYS) {
-            for ray in rays(runs, &run.problem, &source) {
-                let hit = nearest(&run.problem, &source, &ray).unwrap_or(f64::INFINITY);
-                let march = March { problem: &run.problem, ray, hit, interface };
-                let ends = march.ends(source.environment, None, 0);
-                count = count.and(Count { wrong: u64::from(ends != 1), of: 1 });
-            }
-        }
-    }
-    count
+    wrong_rays(runs, MAX_RAYS, |problem, source, ray| {
+        let hit = nearest(problem, source, ray).unwrap_or(f64::INFINITY);
+        March { problem, ray, hit, interface }.ends(source.environment, None, 0) != 1
+    })
 }
 
 struct March<'a> {
     problem: &'a Problem,
-    ray: Ray,
+    ray: &'a Ray,
     /// Distance of the nearest polygon.
     hit: f64,
     interface: Interface,

@@ -1,35 +1,25 @@
 //! Naive methods: slow implementations that make one known mistake each. Only cases use them.
-//!
-//! - `energy`: energy stored and summed in ways that lose it
-//! - `epsilon`: hits near the start of a ray are ignored
-//! - `faces`: faces used as the file has them
-//! - `gather`: receivers search for the lamp
-//! - `march`: rays passed between environments without a rule for edges
-//! - `single`: triangles in single precision
-//! - `walk`: the grid walk of the textbook
 
-mod energy;
-mod epsilon;
-mod faces;
-mod gather;
-mod march;
-mod single;
-mod walk;
+mod energy; // energy stored and summed in ways that lose it
+mod epsilon; // hits near the start of a ray are ignored
+mod faces; // faces used as the file has them
+mod gather; // receivers search for the lamp
+mod march; // rays passed between environments without a rule for edges
+mod single; // triangles in single precision
+mod walk; // the grid walk of the textbook
 
 use crate::cases::naive_method::{MAX_RAYS, NaiveMethod};
 use crate::checks::rays;
 use crate::finding::Quantity;
+use crate::naive::march::Interface;
+use crate::naive::single::Corners;
 use crate::runs::CaseRuns;
 
 /// What a naive method does with a case, by the measure that shows its failure.
 pub fn run(method: NaiveMethod, runs: &CaseRuns) -> Quantity {
     match method {
-        NaiveMethod::SingleTriangles => {
-            Quantity::Count(single::leaks(runs, single::Corners::Shared))
-        }
-        NaiveMethod::UnweldedTriangles => {
-            Quantity::Count(single::leaks(runs, single::Corners::Own))
-        }
+        NaiveMethod::SingleTriangles => Quantity::Count(single::leaks(runs, Corners::Shared)),
+        NaiveMethod::UnweldedTriangles => Quantity::Count(single::leaks(runs, Corners::Own)),
         NaiveMethod::SingleDistances => Quantity::Count(rays::torn(runs, MAX_RAYS, single::last)),
         NaiveMethod::TrustedFaces => {
             faces::leaks(runs).map_or_else(Quantity::Words, Quantity::Count)
@@ -37,11 +27,9 @@ pub fn run(method: NaiveMethod, runs: &CaseRuns) -> Quantity {
         NaiveMethod::TrustedNormals => {
             faces::no_normals(runs).map_or_else(Quantity::Words, Quantity::Whole)
         }
-        NaiveMethod::ClosedFaces => Quantity::Count(march::owners(runs, march::Interface::Closed)),
-        NaiveMethod::OpenFaces => Quantity::Count(march::owners(runs, march::Interface::Open)),
-        NaiveMethod::UnboundedPlanes => {
-            Quantity::Count(march::owners(runs, march::Interface::Unbounded))
-        }
+        NaiveMethod::ClosedFaces => Quantity::Count(march::owners(runs, Interface::Closed)),
+        NaiveMethod::OpenFaces => Quantity::Count(march::owners(runs, Interface::Open)),
+        NaiveMethod::UnboundedPlanes => Quantity::Count(march::owners(runs, Interface::Unbounded)),
         NaiveMethod::AddedSteps => Quantity::Count(rays::astray(runs, MAX_RAYS, walk::end)),
         NaiveMethod::Millimetre => Quantity::Count(rays::astray(runs, MAX_RAYS, epsilon::end)),
         NaiveMethod::DepositedRadiosity => Quantity::Number(energy::brightest(runs)),

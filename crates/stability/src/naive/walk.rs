@@ -1,15 +1,16 @@
 //! The grid walk of Amanatides and Woo (1987) exactly as published: distances are accumulated step by step,
 //! and components that are zero are divided by.
 
-use radiosity::{Emitter, Ray};
+use radiosity::{Block, Emitter, Ray};
 use virtwall::Problem;
 
 /// The distance at which a ray ends.
 pub fn end(problem: &Problem, source: &Emitter, ray: &Ray) -> Option<f64> {
     let grid = &problem.space.grid;
     let cells = grid.cells();
-    let mut cell = grid.cell_of(ray.origin).map(i64::from);
-    let here = grid.bounds(&one(cell));
+    let first = grid.cell_of(ray.origin);
+    let mut cell = first.map(i64::from);
+    let here = grid.bounds(&Block { low: first, high: first.map(|c| c + 1) });
     let (origin, direction) = (ray.origin.to_array(), ray.direction.to_array());
     let (low, high) = (here.min.to_array(), here.max.to_array());
     let step = direction.map(|d| if d >= 0.0 { 1 } else { -1 });
@@ -40,9 +41,4 @@ pub fn end(problem: &Problem, source: &Emitter, ray: &Ray) -> Option<f64> {
             return None;
         }
     }
-}
-
-fn one(cell: [i64; 3]) -> radiosity::Block {
-    let low = cell.map(|c| c as u32);
-    radiosity::Block { low, high: low.map(|c| c + 1) }
 }

@@ -3,16 +3,13 @@
 use crate::finding::{Count, Quantity, ROUNDING};
 use crate::suite::CaseResult;
 
-/// The columns of the table.
-const COLUMNS: [&str; 6] = ["case", "measure", "naive", "ours", "right", "holds"];
-
 /// The table: one line for each finding.
 ///
 /// # Errors
 /// Those of the CSV writer.
 pub fn csv(results: &[CaseResult]) -> Result<String, csv::Error> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(COLUMNS)?;
+    writer.write_record(["case", "measure", "naive", "ours", "right", "holds"])?;
     for result in results {
         for finding in &result.findings {
             let naive = finding.naive.as_ref().map_or(String::new(), raw);

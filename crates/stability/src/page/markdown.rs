@@ -28,36 +28,33 @@ pub fn page(results: &[CaseResult]) -> String {
     text
 }
 
-/// A case as a row of the page.
 fn row(result: &CaseResult) -> String {
     let case = &result.case;
-    let each = |of: &dyn Fn(&Finding) -> String| {
-        let cells: Vec<String> = result.findings.iter().map(of).collect();
-        cells.into_iter().filter(|cell| !cell.is_empty()).collect::<Vec<_>>().join("<br>")
-    };
+    let each = |of: &dyn Fn(&Finding) -> String| joined(result.findings.iter().map(of), "<br>");
     let set = || format!("`{}`", settings(&case.naive_settings, "")).replace("``", "");
     let how = case.naive.map_or_else(set, |method| method.words().to_owned());
     let naive = each(&|finding| {
-        finding
-            .naive
-            .as_ref()
-            .map_or(String::new(), |quantity| described(finding.measure, quantity))
+        let naive = finding.naive.as_ref();
+        naive.map_or(String::new(), |quantity| described(finding.measure, quantity))
     });
-    let naive =
-        [how, naive].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(": ");
     let ours = each(&|finding| {
         let mark = if finding.holds { "" } else { "**wrong** " };
         format!("{mark}{}", described(finding.measure, &finding.ours))
     });
-    let right = each(&|finding| bound(finding));
     let cells = [
         format!("**{}** (`{}`). {}", case.title, result.name, case.failure),
-        naive,
+        joined([how, naive], ": "),
         format!("{ours}<br>{}", case.remedy),
-        right,
+        each(&bound),
     ];
     let cells = cells.map(|cell| cell.replace('|', "\\|").replace('\n', " "));
     format!("| {} |\n", cells.join(" | "))
+}
+
+/// The parts that are not empty.
+fn joined(parts: impl IntoIterator<Item = String>, separator: &str) -> String {
+    let parts = parts.into_iter().filter(|part| !part.is_empty());
+    parts.collect::<Vec<_>>().join(separator)
 }
 
 /// Fields and their values in the form that `--set` takes.

@@ -1,12 +1,8 @@
 //! The results of all cases as files.
-//!
-//! - `markdown`: the page
-//! - `csv`: the table, a line for each finding
-//! - `svg`: the drawing
 
-mod csv;
-mod markdown;
-mod svg;
+mod csv; // the table, a line for each finding
+mod markdown; // the page
+mod svg; // the drawing
 
 pub use csv::csv;
 pub use markdown::page;

@@ -7,7 +7,6 @@ use super::critical_path::{PathSegment, critical_path};
 use super::time_breakdown::TimeBreakdown;
 use crate::record::{NodeState, RecordedRun, is_shot};
 
-/// A recorded run, its critical path, and where its time went.
 pub(crate) struct AnalysedRun<'a> {
     pub run: &'a RecordedRun<'a>,
     pub path: Vec<PathSegment>,
@@ -70,7 +69,6 @@ impl<'a> AnalysedRun<'a> {
         self.last.1.as_seconds_f64()
     }
 
-    /// The number of compute nodes.
     pub fn processors(&self) -> usize {
         self.run.recording.processors()
     }

@@ -6,12 +6,12 @@ use super::format::{exact_seconds, factor, percent, seconds};
 use super::loss::Loss;
 use crate::record::NodeState;
 
-/// A question and its answer.
-type Answer = (&'static str, String);
-
 /// Questions about a run with their answers; `alone` is the same run on one processor, if that was
 /// recorded.
-pub(crate) fn answers(run: &AnalysedRun, alone: Option<&AnalysedRun>) -> Vec<Answer> {
+pub(crate) fn answers(
+    run: &AnalysedRun,
+    alone: Option<&AnalysedRun>,
+) -> Vec<(&'static str, String)> {
     let mut answers = vec![("Which node finished last, and what was it doing?", finish(run))];
     if run.processors() > 1 && run.last_shot.is_some() {
         answers.push(("Why is it not faster?", why(run, alone)));
@@ -86,24 +86,10 @@ fn lost(run: &AnalysedRun) -> String {
     )
 }
 
-/// The shares of the critical path spent on computing, on messages, and on the rest.
-fn path_shares(run: &AnalysedRun) -> [f64; 3] {
-    use NodeState::{
-        Control, Held, LocalShot, Paging, ReceivedShot, Receiving, Selection, Sending, Travelling,
-        Waiting,
-    };
+fn critical(run: &AnalysedRun) -> String {
     let share = |states: &[NodeState]| {
         states.iter().map(|&state| run.path_seconds[state as usize]).sum::<f64>() / run.seconds()
     };
-    [
-        share(&[LocalShot, ReceivedShot, Selection]),
-        share(&[Sending, Receiving, Control, Held, Travelling]),
-        share(&[Paging, Waiting]),
-    ]
-}
-
-fn critical(run: &AnalysedRun) -> String {
-    let [computing, messages, rest] = path_shares(run);
     let is_shot = |segment: &&PathSegment| {
         matches!(segment.state, NodeState::LocalShot | NodeState::ReceivedShot)
     };
@@ -118,7 +104,7 @@ fn critical(run: &AnalysedRun) -> String {
     let on = |&(node, time): &(usize, f64)| format!("{} on node {node}", seconds(time));
     let mut named: Vec<String> = nodes.iter().take(3).map(on).collect();
     named.extend((nodes.len() > 3).then(|| "less on others".to_owned()));
-    let rest = match rest {
+    let rest = match share(&[NodeState::Paging, NodeState::Waiting]) {
         0.0 => String::new(),
         rest => format!(", {} paging or unexplained waiting", percent(rest)),
     };
@@ -126,8 +112,8 @@ fn critical(run: &AnalysedRun) -> String {
         "The critical path, the gapless chain of work and messages that led to the end: {shots} shots, {}. \
          {} of its length is computing, {} messages{rest}. The timeline shows it.",
         named.join(", "),
-        percent(computing),
-        percent(messages),
+        percent(share(&NodeState::COMPUTING)),
+        percent(share(&NodeState::OVERHEAD)),
     )
 }
 

@@ -5,7 +5,6 @@ use virtwall::{Recording, Span};
 
 use crate::record::NodeState;
 
-/// One segment of the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PathSegment {
     /// The node; of a message under way its receiver.

@@ -1,17 +1,11 @@
 //! Why a run took as long as it did, computed from its recording.
 
-/// A recorded run with what was computed from it.
-mod analysed_run;
-/// Answers in words to the first questions about a run.
-mod answers;
-/// The critical path.
-mod critical_path;
-/// Numbers as text.
-mod format;
-/// The gap to a perfect speed-up, as a product of factors.
-mod loss;
-/// Where the time of each node went.
-mod time_breakdown;
+mod analysed_run; // a recorded run with what was computed from it
+mod answers; // answers in words to the first questions about a run
+mod critical_path; // the critical path
+mod format; // numbers as text
+mod loss; // the gap to a perfect speed-up, as a product of factors
+mod time_breakdown; // where the time of each node went
 
 pub(crate) use analysed_run::AnalysedRun;
 pub(crate) use answers::answers;

@@ -38,7 +38,6 @@ impl TimeBreakdown {
         breakdown
     }
 
-    /// Adds another node's.
     pub fn add(&mut self, other: &TimeBreakdown) {
         self.states.iter_mut().zip(other.states).for_each(|(sum, more)| *sum += more);
         self.before += other.before;
@@ -46,18 +45,14 @@ impl TimeBreakdown {
         self.after += other.after;
     }
 
-    /// Time in kernels.
     pub fn computing(&self) -> f64 {
-        self.sum(&[NodeState::LocalShot, NodeState::ReceivedShot, NodeState::Selection])
+        self.sum(&NodeState::COMPUTING)
     }
 
-    /// Time spent on messages.
     pub fn overhead(&self) -> f64 {
-        use NodeState::{Control, Held, Receiving, Sending};
-        self.sum(&[Sending, Receiving, Control, Held])
+        self.sum(&NodeState::OVERHEAD)
     }
 
-    /// Time spent waiting for something to arrive.
     pub fn waiting(&self) -> f64 {
         self.before + self.between + self.after
     }

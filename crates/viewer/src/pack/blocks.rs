@@ -79,7 +79,6 @@ impl<'a> Blocks<'a> {
         })
     }
 
-    /// Adds the block of a run.
     fn run(
         &mut self,
         number: usize,

@@ -6,19 +6,15 @@ use radiosity::Rgb;
 
 use super::Columns;
 
-/// Environment and patch, and the power in W.
-type Emitter = ((u32, u32), Rgb);
-
 #[derive(Default)]
 pub(crate) struct Emitters {
-    /// The power as bits, since floating-point numbers have no order.
+    /// By environment and patch, and the power as bits, since floating-point numbers have no order.
     numbers: BTreeMap<((u32, u32), [u64; 3]), u64>,
     /// Those that no block has yet.
-    fresh: Vec<Emitter>,
+    fresh: Vec<((u32, u32), Rgb)>,
 }
 
 impl Emitters {
-    /// The number of an emitter.
     pub fn number(&mut self, patch: (u32, u32), power: Rgb) -> u64 {
         let next = self.numbers.len() as u64;
         let number =

@@ -8,7 +8,6 @@ use super::Columns;
 /// Steps along each axis in which corners are stored, in 16 bits.
 const STEPS: f64 = 65_535.0;
 
-/// The columns of the scene.
 pub(crate) fn geometry(problem: &Problem) -> Columns {
     let mut columns = Columns::default();
     let scene = &problem.space.scene;

@@ -1,21 +1,13 @@
 //! Recorded runs as compressed blocks of data, which the page's program reads. Times are in nanoseconds.
 
-/// The blocks of a page and their index.
-mod blocks;
-/// Which runs a page has room for.
-mod budget;
-/// A block: columns of numbers, compressed.
-mod columns;
-/// Numbers of emitters in a run.
-mod emitters;
-/// The block of a scene: patches and local environments.
-mod geometry;
-/// Where the nodes of a run are on its machine.
-mod machine_layout;
-/// The block of a run: spans, messages, critical path.
-mod run;
-/// The block of shots: what each of them hits.
-mod shots;
+mod blocks; // the blocks of a page and their index
+mod budget; // which runs a page has room for
+mod columns; // a block: columns of numbers, compressed
+mod emitters; // numbers of emitters in a run
+mod geometry; // the block of a scene: patches and local environments
+mod machine_layout; // where the nodes of a run are on its machine
+mod run; // the block of a run: spans, messages, critical path
+mod shots; // the block of shots: what each of them hits
 
 pub(crate) use blocks::Blocks;
 pub(crate) use columns::Columns;

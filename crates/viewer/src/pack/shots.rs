@@ -26,7 +26,6 @@ impl<'a> Shots<'a> {
         shots
     }
 
-    /// The number of a shot.
     pub fn number(&self, shot: &RecordedShot) -> u64 {
         self.numbers.get(&shot.key).copied().unwrap_or_default()
     }

@@ -33,7 +33,6 @@ pub fn program() -> String {
     script(&[include_str!("../../assets/start.js")])
 }
 
-/// The script of a page that follows runs while they are under way.
 pub(super) fn live_program() -> String {
     script(&[include_str!("../../assets/data/live-run.js"), include_str!("../../assets/live.js")])
 }
@@ -43,7 +42,6 @@ fn script(start: &[&str]) -> String {
     format!("<script>\n\"use strict\";\n{{\n{program}{start}}}\n</script>\n")
 }
 
-/// The index of scenes and runs, as an element of the page.
 pub(super) fn index_element(index: &Value) -> String {
     // `<` could end the element.
     let index = index.to_string().replace('<', "\\u003c");

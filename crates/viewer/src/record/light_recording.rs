@@ -9,7 +9,7 @@ use virtwall::{Activity, Observer, Problem, Recording, SentMessage, ShotKey, Sou
 /// An observer that records a run.
 pub struct LightRecording {
     /// All but the light.
-    pub(crate) recording: Recording,
+    pub recording: Recording,
     /// The shots of each rank, in the order of the recording's shots.
     pub(crate) shots: Vec<Vec<RecordedShot>>,
     /// By rank, the bytes of memory in use from each change on; empty where memory is not modelled.
@@ -39,13 +39,12 @@ pub(crate) struct RecordedShot {
 
 impl RecordedShot {
     pub fn of(source: &Source, shot: &Shot) -> RecordedShot {
-        let hits = shot.hits.iter();
         RecordedShot {
             key: ShotKey::of(source),
             environment: source.environment,
             emitter: (source.emitter.environment, source.emitter.patch),
             power: source.emitter.power,
-            hits: hits.map(|&(patch, form_factor)| (patch, form_factor as f32)).collect(),
+            hits: shot.hits.iter().map(|&(patch, factor)| (patch, factor as f32)).collect(),
             backs: shot.backs,
             escaped: shot.escaped,
             medium: shot.medium,
@@ -60,11 +59,6 @@ impl LightRecording {
         let shots = std::iter::repeat_with(Vec::new).take(processors + 1).collect();
         let recording = Recording::new(problem, processors);
         LightRecording { recording, shots, memory: vec![Vec::new(); processors + 1] }
-    }
-
-    /// All but the light.
-    pub fn recording(&self) -> &Recording {
-        &self.recording
     }
 
     /// The number of compute nodes.

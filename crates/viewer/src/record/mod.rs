@@ -1,11 +1,8 @@
 //! What is recorded of a run for the viewer.
 
-/// A recording with what each shot hit.
-mod light_recording;
-/// The states of a node that the page distinguishes.
-mod node_state;
-/// A recording with what it is a recording of.
-mod recorded_run;
+mod light_recording; // a recording with what each shot hit
+mod node_state; // the states of a node that the page distinguishes
+mod recorded_run; // a recording with what it is a recording of
 
 pub use light_recording::LightRecording;
 pub(crate) use light_recording::RecordedShot;

@@ -21,6 +21,17 @@ pub(crate) enum NodeState {
 
 impl NodeState {
     pub const COUNT: usize = NodeState::Waiting as usize + 1;
+    /// In kernels.
+    pub const COMPUTING: [NodeState; 3] =
+        [NodeState::LocalShot, NodeState::ReceivedShot, NodeState::Selection];
+    /// Busy with messages.
+    pub const OVERHEAD: [NodeState; 5] = [
+        NodeState::Sending,
+        NodeState::Receiving,
+        NodeState::Control,
+        NodeState::Held,
+        NodeState::Travelling,
+    ];
 
     pub fn of(activity: Activity) -> NodeState {
         match activity {
