@@ -10,6 +10,10 @@ use crate::state::State;
 use crate::ticket::{Outcome, ProcessId, Ticket};
 use crate::time::Time;
 
+/// Times saturate. So the last one stands for every time that is too late or not a number.
+const TIME_IS_OVER: &str =
+    "an event is later than virtual time lasts (213 days), or its time is not a number";
+
 /// A simulation: processes, their events, and the clock.
 #[derive(Default)]
 pub struct Simulation {
@@ -30,13 +34,17 @@ impl Simulation {
     /// Takes events in order until none is left. Returns the time of the last one.
     ///
     /// # Errors
-    /// [`Stalled`] if processes still wait then, or if the run was halted.
+    /// [`Stalled`] if processes still wait then, if the run was halted, or if an event is at [`Time::MAX`].
     pub fn run(&self) -> Result<Time, Stalled> {
         loop {
             let next = self.state.queue.borrow_mut().take();
             let Some((time, event)) = next else { break };
             if self.state.is_stale(time, &event) {
                 continue;
+            }
+            if time == Time::MAX {
+                self.handle().halt(TIME_IS_OVER);
+                break;
             }
             self.state.now.set(time);
             match event {

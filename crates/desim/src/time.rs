@@ -33,11 +33,14 @@ impl Duration {
     /// The longest span, about 213 days.
     pub const MAX: Duration = Duration(u64::MAX);
 
-    /// The tick nearest to `seconds`. Negative values and NaN give zero; too long a span gives
-    /// [`Duration::MAX`].
+    /// The tick nearest to `seconds`. Negative values give zero; too long a span and NaN give
+    /// [`Duration::MAX`], which ends a simulation.
     pub fn from_seconds_f64(seconds: f64) -> Duration {
-        // A cast from f64 saturates and turns NaN into zero.
-        Duration((seconds * TICKS_PER_SECOND).round() as u64)
+        match seconds.is_nan() {
+            true => Duration::MAX,
+            // A cast from f64 saturates.
+            false => Duration((seconds * TICKS_PER_SECOND).round() as u64),
+        }
     }
 
     /// The span in seconds, rounded to the nearest f64.
@@ -141,7 +144,7 @@ mod tests {
         assert_eq!(ps(1.4e-12), 1);
         assert_eq!(ps(1.6e-12), 2);
         assert_eq!(ps(-1.0), 0);
-        assert_eq!(ps(f64::NAN), 0);
+        assert_eq!(ps(f64::NAN), u64::MAX);
         assert_eq!(ps(f64::NEG_INFINITY), 0);
         assert_eq!(ps(f64::INFINITY), u64::MAX);
         assert_eq!(ps(1e30), u64::MAX);

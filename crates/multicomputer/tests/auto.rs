@@ -46,6 +46,23 @@ fn computes(machine: &Machine, network: Box<dyn Network>) -> Time {
     simulation.run().unwrap()
 }
 
+/// The nodes of two rows send a message two rows down.
+fn shares_links(machine: &Machine, network: Box<dyn Network>) -> Time {
+    let simulation = Simulation::new();
+    let handle = simulation.handle();
+    let nodes = Multicomputer::<()>::with_network(&handle, machine, 16, network).unwrap();
+    for rank in 0..16 {
+        let node = nodes.node(rank);
+        handle.spawn(format!("node {rank}"), async move {
+            match rank {
+                0..8 => node.send(rank + 8, 4_096, ()).await,
+                _ => node.wait().await,
+            }
+        });
+    }
+    simulation.run().unwrap()
+}
+
 #[test]
 fn the_cheapest_model_is_chosen_with_a_reason() {
     let paragon = machine(&paragon());
@@ -67,10 +84,14 @@ fn the_cheapest_model_is_chosen_with_a_reason() {
     });
     assert_eq!(exchanged.model, NetworkModel::LogGp, "{}", exchanged.why);
 
-    // All send to one node and share the links to it, which LogGP does not model.
+    // All send to one node: they share its port.
     let rushed = chosen(&paragon, 0.01, |machine, network| {
         hot_spot(machine, network, 16, 4_096, 2).unwrap()
     });
+    assert_eq!(rushed.model, NetworkModel::LogGp, "{}", rushed.why);
+
+    // Messages from different senders to different receivers share links, which LogGP does not model.
+    let rushed = chosen(&paragon, 0.01, shares_links);
     assert_eq!(rushed.model, NetworkModel::Wormhole, "{}", rushed.why);
     assert!(rushed.record.blocked() > Duration::ZERO);
 }
@@ -79,9 +100,7 @@ fn the_cheapest_model_is_chosen_with_a_reason() {
 fn the_choice_ends_at_the_models_that_the_machine_file_describes() {
     let mut file = paragon();
     file["network"].as_object_mut().unwrap().remove("links");
-    let rushed = chosen(&machine(&file), 0.01, |machine, network| {
-        hot_spot(machine, network, 16, 4_096, 2).unwrap()
-    });
+    let rushed = chosen(&machine(&file), 0.01, shares_links);
     assert_eq!(rushed.model, NetworkModel::LogGp);
     assert_eq!(rushed.why, "the machine's file says too little for wormhole");
 }

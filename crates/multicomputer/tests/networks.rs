@@ -63,9 +63,9 @@ fn a_blocked_message_blocks_those_behind_it() {
         flits.iter().map(ReplayedMessage::blockers).collect::<Vec<_>>(),
         [vec![], vec![0], vec![1]]
     );
-    // Without contention only the port is waited for.
+    // Without contention only ports are waited for: the second by its receiver, the third by its sender.
     let free = fixture("head-of-line", "row-of-4", NetworkModel::LogGp).unwrap();
-    assert_eq!(seconds(&free), [1.0, 1.0, 2.0]);
+    assert_eq!(seconds(&free), [1.0, 2.0, 2.0]);
 }
 
 #[test]

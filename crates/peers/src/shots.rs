@@ -52,7 +52,13 @@ fn emitters(problem: &Problem) -> Vec<Source> {
             if light.unshot[patch as usize] != Rgb::ZERO {
                 let emitter = light.emitter(&problem.space, environment, number, patch);
                 let mask = Mask::all(problem.hemisphere.pixels());
-                found.push(Source { environment: number, emitter, mask, form_factor: 1.0 });
+                found.push(Source {
+                    environment: number,
+                    shot: 0,
+                    emitter,
+                    mask,
+                    form_factor: 1.0,
+                });
             }
         }
     }

@@ -42,7 +42,7 @@ pub use problem::{
 };
 pub use program::{
     Collection, ComputeNode, Display, EnvironmentResult, Event, NoDisplay, NodeResult, Order,
-    Process, Queue, Rules, Selection, Step, Ties, Turn, Unreadable, compute_node, service_node,
+    Process, ProgramError, Queue, Rules, Selection, Step, Ties, Turn, compute_node, service_node,
 };
 pub use run::{Counts, DisplayReport, Ending, NodeReport, Outcome, Run};
 pub use walls::WallPatch;

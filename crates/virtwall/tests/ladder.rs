@@ -102,7 +102,8 @@ fn light(problem: &Problem) -> (Vec<Told>, BTreeSet<u32>) {
         let source = lights[e as usize].emitter(&problem.space, environment, e, patch);
         lights[e as usize].unshot[patch as usize] = Rgb::ZERO;
         let mask = Mask::all(problem.hemisphere_for(source.power).pixels());
-        let mut waiting = vec![Source { environment: e, emitter: source, mask, form_factor: 1.0 }];
+        let mut waiting =
+            vec![Source { environment: e, shot: 0, emitter: source, mask, form_factor: 1.0 }];
         while let Some(parcel) = waiting.pop() {
             let (here, mask) = (&problem.environments[parcel.environment as usize], &parcel.mask);
             lengths.insert(mask.pixels());
@@ -114,7 +115,7 @@ fn light(problem: &Problem) -> (Vec<Told>, BTreeSet<u32>) {
             for onward in problem.onward(&parcel, &fast) {
                 let message = Message::Source(Box::new(onward.clone()));
                 let bytes = message.encode();
-                assert_eq!(bytes.len() as u32, 125 + onward.mask.pixels().div_ceil(64) * 8);
+                assert_eq!(bytes.len() as u32, 129 + onward.mask.pixels().div_ceil(64) * 8);
                 assert_eq!(Message::decode(&bytes), Ok(message));
                 waiting.push(onward);
             }

@@ -197,7 +197,7 @@ fn media_change_nothing_else() {
     for (bits, bytes) in [(DepthBits::Eight, 1_024), (DepthBits::Sixteen, 2_048)] {
         let run = run(smoky().with_depth_bits(bits), rules());
         let outcome = simulate(&run, &paragon()).unwrap();
-        assert_eq!(outcome.counts.message_bytes, outcome.counts.messages * (125 + bytes));
+        assert_eq!(outcome.counts.message_bytes, outcome.counts.messages * (129 + bytes));
         let forgetful = Run { kept: Arc::new(KeptShots::new(0)), ..run.clone() };
         same(&outcome, &simulate(&forgetful, &paragon()).unwrap());
         same(&outcome, &simulate(&run, &paragon()).unwrap());

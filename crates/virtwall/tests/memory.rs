@@ -52,6 +52,7 @@ fn bytes(floors: u16) -> [f64; 3] {
         patch_threshold: 0.1,
         wall_threshold: 0.0,
         energy_threshold: 0.0,
+        shots_without_progress: None,
         collect_every: Duration::from_seconds_f64(1.0),
         radiosity_updates: true,
         merge_masks: false,

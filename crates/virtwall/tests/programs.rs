@@ -11,8 +11,8 @@ use common::{grey, paragon, problem, rules, same, scene, sides, two_rooms_cut};
 use desim::{Duration, Time};
 use multicomputer::{ContentionFree, Delivery, Formula, Message};
 use virtwall::{
-    Ending, KeptShots, Outcome, Problem, Rules, Run, RunError, run_on_threads, simulate,
-    simulate_over,
+    Ending, KeptShots, Outcome, Problem, ProgramError, Rules, Run, RunError, Shooting, SourceSplit,
+    run_on_threads, simulate, simulate_over,
 };
 
 fn run(problem: &Arc<Problem>, processors: usize, rules: Rules) -> Run {
@@ -107,12 +107,12 @@ fn the_service_node_stops_selection() {
     assert!(outcome.energy.error() < 1e-9);
 }
 
-/// A network with a lane of its own for short messages: long ones take ten seconds.
-struct SlowMasks;
+/// A network with a lane of its own for short messages: long ones take this time, seconds.
+struct SlowMasks(f64);
 
 impl Formula for SlowMasks {
     fn deliver(&mut self, now: Time, message: &Message) -> Delivery {
-        let span = Duration::from_seconds_f64(if message.bytes > 100 { 10.0 } else { 1e-6 });
+        let span = Duration::from_seconds_f64(if message.bytes > 100 { self.0 } else { 1e-6 });
         Delivery { sender_free: now, arrives: now + span, stall: None }
     }
 
@@ -128,12 +128,76 @@ fn a_premature_end_is_told() {
     let problem = two_rooms_cut([4, 2, 1]);
     let run = run(&problem, 8, rules());
     let outcome =
-        simulate_over(&run, &paragon(), Box::new(ContentionFree::new(SlowMasks))).unwrap();
+        simulate_over(&run, &paragon(), Box::new(ContentionFree::new(SlowMasks(10.0)))).unwrap();
     let Ending::TooEarly { lost } = outcome.ending else { panic!("{:?}", outcome.ending) };
     assert!(lost > 0.0 && lost < 1.0, "{lost}");
     let in_transit = outcome.energy.in_transit.element_sum();
     assert!((in_transit / outcome.energy.emitted.element_sum() - lost).abs() < 1e-15);
     assert!(outcome.energy.error() < 1e-9);
+}
+
+/// Whatever nodes do when the end is announced too early, the run ends and its energy balances.
+#[test]
+fn a_premature_end_is_an_end_at_any_moment() {
+    let problem = two_rooms_cut([4, 2, 1]);
+    let split = SourceSplit { nearer_than: f64::INFINITY, most: 2 };
+    let mut early = 0;
+    for step in 0..30 {
+        let seconds = 1e-6 * 1.5_f64.powi(step);
+        for (processors, merge_masks, split) in
+            [(8, false, SourceSplit::NONE), (3, true, split), (5, false, SourceSplit::NONE)]
+        {
+            let shooting = Shooting { split, overshoot: 1.2, ..Shooting::default() };
+            let rules = Rules { merge_masks, shooting, patch_threshold: 0.01, ..rules() };
+            let run = run(&problem, processors, rules);
+            let network = Box::new(ContentionFree::new(SlowMasks(seconds)));
+            let outcome = simulate_over(&run, &paragon(), network).unwrap();
+            early += u32::from(outcome.ending != Ending::Agreed);
+        }
+    }
+    assert!((10..80).contains(&early), "{early}");
+}
+
+/// A threshold of 0 is off, also where over-shooting leaves negative power: how often the service node
+/// collects changes nothing that matters.
+#[test]
+fn over_shooting_ends_by_the_threshold_of_patches() {
+    let problem = two_rooms_cut([2, 1, 1]);
+    let shots = [0.01, 0.1, 1e4].map(|seconds| {
+        let collect_every = Duration::from_seconds_f64(seconds);
+        let shooting = Shooting { overshoot: 1.8, ..Shooting::default() };
+        let rules = Rules { collect_every, shooting, patch_threshold: 1e-3, ..rules() };
+        let outcome = simulate(&run(&problem, 1, rules), &paragon()).unwrap();
+        (outcome.counts.local_shots, outcome.energy.absorbed)
+    });
+    assert_eq!(shots[0], shots[2]);
+    assert_eq!(shots[1], shots[2]);
+}
+
+/// Light that does not fall ends the run with an error, on both back ends.
+#[test]
+fn no_progress_ends_the_run() {
+    let problem = two_rooms_cut([2, 1, 1]);
+    let shooting = Shooting { overshoot: 6.0, ..Shooting::default() };
+    let rules = Rules { shooting, shots_without_progress: Some(2_000), ..rules() };
+    let run = run(&problem, 2, rules);
+    for ended in [simulate(&run, &paragon()), run_on_threads(&run)] {
+        let error = ended.unwrap_err();
+        let expected = ProgramError::NoProgress { shots: 2_000 };
+        assert!(matches!(&error, RunError::Program(found) if *found == expected), "{error}");
+    }
+}
+
+/// A processor that takes longer than virtual time lasts.
+#[test]
+fn virtual_time_that_is_over_ends_the_run() {
+    let problem = two_rooms_cut([2, 1, 1]);
+    for cycles in [1e300, f64::INFINITY, f64::NAN] {
+        let mut machine = paragon();
+        *machine.processor.cycles.get_mut("ray").unwrap() = cycles;
+        let error = simulate(&run(&problem, 2, rules()), &machine).unwrap_err();
+        assert!(error.to_string().contains("virtual time"), "{error}");
+    }
 }
 
 #[test]

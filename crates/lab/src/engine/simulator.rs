@@ -271,6 +271,10 @@ fn rules(point: &Experiment) -> Rules {
         order: point.order,
         patch_threshold: point.stop.patch_threshold.value(),
         energy_threshold: point.stop.energy_threshold.value(),
+        shots_without_progress: point
+            .stop
+            .shots_without_progress
+            .map(|shots| u64::from(shots.get())),
         collect_every: desim::Duration::from_seconds_f64(point.stop.collect_every.value()),
         wall_threshold: point.virtual_walls.threshold.value(),
         radiosity_updates: point.radiosity_updates,

@@ -184,6 +184,11 @@ pub struct Stop {
     pub energy_threshold: Fraction,
     /// How often the service node collects the energy left. Choice C8: unpublished.
     pub collect_every: Period,
+    /// The run fails when this number of shots carried no less light than as many shots before them, as where
+    /// over-shooting diverges. Default: a thousand for each patch, but a million at least.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1))]
+    pub shots_without_progress: Option<std::num::NonZeroU32>,
 }
 
 impl Default for Stop {
@@ -192,6 +197,7 @@ impl Default for Stop {
             patch_threshold: Fraction::parse("10 %").expect("10 % is a fraction"),
             energy_threshold: Fraction::parse("0 %").expect("0 % is a fraction"),
             collect_every: Period::parse("1 s").expect("1 s is a time"),
+            shots_without_progress: None,
         }
     }
 }

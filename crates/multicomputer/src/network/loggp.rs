@@ -1,23 +1,26 @@
-//! The model `loggp`: overhead, latency, gap, gap per byte, and hops, without contention.
+//! The model `loggp`: overhead, latency, gap, gap per byte, and hops, without contention for links.
 //!
 //! Alexandrov, Ionescu, Schauser, Scheiman: LogGP, SPAA 1995. A message of n bytes takes
 //!
 //! ```text
 //! sender    |-- o --|
-//! port              |-- n G --|-- g --|      (not before it is free of the last message)
-//! network                     |-- L + hops h --|
+//! its port          |-- n G --|-- g --|        (not before it is free of the last message)
+//! network           |-- L + hops h --|
+//! receiving port                     |-- n G --|-- g --|     (not before it is free, first come first served)
 //! receiver                                     |-- o --|
 //! ```
 //!
 //! A node's port works independently, like the message processor of a Paragon's node: a sender is free
-//! after its overhead even if the port is still busy with earlier messages.
+//! after its overhead even if the port is still busy with earlier messages. It sends and receives at the same
+//! time. The gaps hold at both ends, as the model's authors and LogGOPSim have it: several senders to one node
+//! share its port.
 
-use desim::{Duration, Time};
+use desim::{Duration, EventQueue, Time};
 
 use super::channel::Channel;
-use super::formula::{Delivery, Formula};
+use super::deadlock::Deadlock;
 use super::message::Message;
-use super::network::Stall;
+use super::network::{Arrival, Network, Stall};
 use super::topology::Topology;
 
 /// Parameters of the model.
@@ -62,42 +65,91 @@ impl LogGpParameters {
 pub struct LogGp {
     parameters: LogGpParameters,
     topology: Topology,
-    ports: Vec<Port>,
+    /// By place, as senders and as receivers.
+    ports: Vec<[Port; 2]>,
+    events: EventQueue<Event>,
 }
 
-/// A node's port.
+/// One direction of a node's port.
 #[derive(Clone, Copy, Default)]
 struct Port {
-    /// When it can inject the next message.
+    /// When it can begin with the next message.
     free: Time,
     /// Id of the last message.
     last: u64,
 }
 
+enum Event {
+    /// The first byte of a message is at the receiver's port.
+    Head(Message, Vec<Stall>),
+    /// The message is in the receiver's mailbox.
+    Arrival(Arrival),
+}
+
 impl LogGp {
     /// An empty network.
     pub fn new(parameters: LogGpParameters, topology: &Topology) -> LogGp {
-        let ports = vec![Port::default(); topology.places()];
-        LogGp { parameters, topology: topology.clone(), ports }
+        let ports = vec![<[Port; 2]>::default(); topology.places()];
+        LogGp { parameters, topology: topology.clone(), ports, events: EventQueue::default() }
+    }
+
+    /// Pass a message through a port. Returns when its first byte does, and adds its wait to `stalls`.
+    fn pass(
+        &mut self,
+        now: Time,
+        message: &Message,
+        channel: Channel,
+        stalls: &mut Vec<Stall>,
+    ) -> Time {
+        let port = match channel {
+            Channel::Ejection(place) => &mut self.ports[place.index()][1],
+            _ => &mut self.ports[message.from.index()][0],
+        };
+        let wait = port.free - now;
+        if wait > Duration::ZERO {
+            stalls.push(Stall { channel, by: port.last, span: wait });
+        }
+        let (start, span) = (now + wait, self.parameters.injection(message.bytes));
+        *port = Port { free: start + span + self.parameters.gap, last: message.id };
+        start
+    }
+
+    /// A message reaches its receiver's port.
+    fn receive(&mut self, head: Time, message: Message, mut stalls: Vec<Stall>) {
+        let channel = Channel::Ejection(message.to);
+        let start = self.pass(head, &message, channel, &mut stalls);
+        let at = start + self.parameters.injection(message.bytes);
+        self.events.schedule(at, Event::Arrival(Arrival { message, at, stalls }));
     }
 }
 
-impl Formula for LogGp {
-    fn deliver(&mut self, now: Time, message: &Message) -> Delivery {
-        let Message { id, from, to, bytes } = *message;
-        let port = &mut self.ports[from.index()];
+impl Network for LogGp {
+    fn send(&mut self, now: Time, message: Message) -> Time {
         let sender_free = now + self.parameters.send_overhead;
-        let wait = port.free - sender_free;
-        let injected = sender_free + wait + self.parameters.injection(bytes);
-        let channel = Channel::Injection(from);
-        let stall = (wait > Duration::ZERO).then_some(Stall { channel, by: port.last, span: wait });
-        *port = Port { free: injected + self.parameters.gap, last: id };
-        let hops = u64::from(self.topology.hops(from, to));
-        let arrives = injected + self.parameters.latency + self.parameters.hop_time * hops;
-        Delivery { sender_free, arrives, stall }
+        let mut stalls = Vec::new();
+        let channel = Channel::Injection(message.from);
+        let first = self.pass(sender_free, &message, channel, &mut stalls);
+        let hops = u64::from(self.topology.hops(message.from, message.to));
+        let way = self.parameters.latency + self.parameters.hop_time * hops;
+        self.events.schedule(first + way, Event::Head(message, stalls));
+        sender_free
     }
 
     fn receive_overhead(&self) -> Duration {
         self.parameters.receive_overhead
+    }
+
+    fn next_event(&self) -> Option<Time> {
+        self.events.next_time()
+    }
+
+    fn advance(&mut self, now: Time, arrived: &mut Vec<Arrival>) -> Result<(), Deadlock> {
+        while let Some((at, event)) = self.events.take_due(now) {
+            match event {
+                Event::Head(message, stalls) => self.receive(at, message, stalls),
+                Event::Arrival(arrival) => arrived.push(arrival),
+            }
+        }
+        Ok(())
     }
 }

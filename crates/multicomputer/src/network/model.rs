@@ -106,7 +106,7 @@ impl NetworkParameters {
         let links = self.links.clone();
         Some(match model {
             NetworkModel::Ideal => Box::new(ContentionFree::new(Ideal)),
-            NetworkModel::LogGp => Box::new(ContentionFree::new(LogGp::new(software?, topology))),
+            NetworkModel::LogGp => Box::new(LogGp::new(software?, topology)),
             NetworkModel::Wormhole => Box::new(Wormhole::new(software?, links?, topology)),
             NetworkModel::Flit => Box::new(Flit::new(software?, links?, topology)),
         })

@@ -66,6 +66,7 @@ pub fn record(machine: &Machine, network: Box<dyn Network>) -> (Outcome, Recordi
         order: Order::Best,
         patch_threshold: 0.002,
         energy_threshold: 0.0,
+        shots_without_progress: None,
         collect_every: Duration::from_seconds_f64(0.5),
         radiosity_updates: true,
         merge_masks: false,

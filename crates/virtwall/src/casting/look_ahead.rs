@@ -38,7 +38,8 @@ impl LookAhead {
     /// A patch will be shot sooner or later.
     pub fn foresee_patch(self: &Arc<Self>, emitter: &Emitter) {
         if self.wants_jobs() {
-            let sources = self.problem.sources_of(*emitter, &self.shooting);
+            // Where rays end does not depend on the number of the shot.
+            let sources = self.problem.sources_of(0, *emitter, &self.shooting);
             sources.into_iter().for_each(|source| self.foresee(Cow::Owned(source)));
         }
     }

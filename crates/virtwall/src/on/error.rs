@@ -6,7 +6,7 @@ use desim::Stalled;
 use multicomputer::MachineError;
 use thiserror::Error;
 
-use crate::program::Unreadable;
+use crate::program::ProgramError;
 
 /// Why a run could not be made, or did not end.
 #[derive(Debug, Error)]
@@ -35,15 +35,35 @@ pub enum RunError {
     /// Deadlock: processes wait and no event is left.
     #[error(transparent)]
     Stalled(#[from] Stalled),
-    /// A process received bytes that are not a message.
+    /// A program cannot go on.
     #[error(transparent)]
-    Unreadable(#[from] Unreadable),
+    Program(#[from] ProgramError),
+    /// The energy does not balance, or is not a number.
+    #[error(
+        "{error:e} of the emitted energy is unaccounted for; expected at most {}",
+        RunError::LARGEST_ENERGY_ERROR
+    )]
+    Unbalanced {
+        /// The error of the balance, a fraction of the emitted energy.
+        error: f64,
+    },
+    /// A thread of a run on threads cannot be started.
+    #[error("the host cannot start the {threads} threads of this run: {cause}")]
+    NoThread {
+        /// One for each compute node, and one for the service node.
+        threads: usize,
+        /// What the host says.
+        cause: String,
+    },
     /// A thread of a run on threads panicked.
     #[error("a compute node's thread failed")]
     Thread,
 }
 
 impl RunError {
+    /// The largest error of the energy balance by rounding, a fraction of the emitted energy.
+    pub const LARGEST_ENERGY_ERROR: f64 = 1e-9;
+
     /// Refuses a part of a machine whose `map` lacks one of these names.
     pub(super) fn require_all<V, const N: usize>(
         part: &'static str,

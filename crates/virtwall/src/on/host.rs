@@ -6,16 +6,19 @@ use std::sync::Arc;
 
 use radiosity::Work;
 
+use super::error::RunError;
+use super::progress::Progress;
 use crate::casting::LookAhead;
 use crate::problem::Rank;
-use crate::program::{Event, Unreadable};
-use crate::run::Counts;
+use crate::program::{Event, ProgramError};
+use crate::run::{Counts, Outcome};
 use crate::wire::{Message, MessageKind};
 
 /// What the host does with the events of a run: it casts shots ahead and reports progress.
 #[derive(Clone)]
 pub(super) struct Host {
     pub look_ahead: Arc<LookAhead>,
+    pub progress: Arc<Progress>,
     /// Called after every shot.
     pub on_shot: Arc<dyn Fn() + Send + Sync>,
 }
@@ -26,7 +29,10 @@ impl Host {
         match event {
             Event::Brightest(emitter) => self.look_ahead.foresee_patch(emitter),
             Event::HandedOn(source) => self.look_ahead.foresee(Cow::Borrowed(source)),
-            Event::Shot { .. } => (self.on_shot)(),
+            Event::Shot { source, .. } => {
+                self.progress.shot(source.power());
+                (self.on_shot)();
+            }
             Event::Selected(_) | Event::Queued { .. } | Event::Taken { .. } => {}
         }
     }
@@ -80,7 +86,15 @@ pub(super) fn total(meters: impl IntoIterator<Item = (Counts, Work)>) -> (Counts
 }
 
 /// Decodes a message. An error names its sender and receiver.
-pub(super) fn decode(to: Rank, from: Rank, bytes: &[u8]) -> Result<(Rank, Message), Unreadable> {
-    let message = Message::decode(bytes).map_err(|error| Unreadable { from, to, error })?;
-    Ok((from, message))
+pub(super) fn decode(to: Rank, from: Rank, bytes: &[u8]) -> Result<(Rank, Message), ProgramError> {
+    let unreadable = |error| ProgramError::Unreadable { from, to, error };
+    Ok((from, Message::decode(bytes).map_err(unreadable)?))
+}
+
+/// Refuses an outcome whose energy does not balance.
+pub(super) fn balanced(outcome: Outcome) -> Result<Outcome, RunError> {
+    match outcome.energy.error() {
+        error if error <= RunError::LARGEST_ENERGY_ERROR => Ok(outcome),
+        error => Err(RunError::Unbalanced { error }),
+    }
 }

@@ -3,6 +3,7 @@
 mod error;
 mod host;
 mod prepared;
+mod progress;
 pub(crate) mod simulated;
 pub(crate) mod threads;
 

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::error::RunError;
 use super::host::Host;
+use super::progress::Progress;
 use crate::casting::LookAhead;
 use crate::problem::Source;
 use crate::program::{Collection, ComputeNode, Shared};
@@ -36,6 +37,8 @@ impl Prepared {
             wall_threshold: brightest * rules.wall_threshold,
             cast: Box::new(move |source: &Source| casts.cast(source)),
         });
+        let most = || (1_000 * problem.patches() as u64).max(1_000_000);
+        let limit = rules.shots_without_progress.unwrap_or_else(most);
         let threshold = brightest * rules.patch_threshold;
         let nodes = (0..*processors).map(|rank| ComputeNode::new(&shared, rank, threshold));
         let emitted = problem.emitted_power().element_sum();
@@ -46,7 +49,11 @@ impl Prepared {
                 every: rules.collect_every,
                 stop_below: rules.energy_threshold * emitted,
             },
-            host: Host { look_ahead, on_shot: Arc::clone(on_shot) },
+            host: Host {
+                look_ahead,
+                progress: Arc::new(Progress::new(limit)),
+                on_shot: Arc::clone(on_shot),
+            },
         })
     }
 }

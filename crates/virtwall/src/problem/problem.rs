@@ -81,8 +81,13 @@ impl Problem {
     }
 
     /// The sources that a patch with unshot power becomes (Figure 2): one at its centre with an all-true
-    /// mask, or several where a patch is cut.
-    pub(crate) fn sources_of(&self, emitter: Emitter, shooting: &Shooting) -> Vec<Source> {
+    /// mask, or several where a patch is cut. `shot` is the number of the shot.
+    pub(crate) fn sources_of(
+        &self,
+        shot: u32,
+        emitter: Emitter,
+        shooting: &Shooting,
+    ) -> Vec<Source> {
         let environment = emitter.environment;
         let geometry = &self.environments[environment as usize];
         let emitted = geometry.emitted_power(&self.space, emitter.patch);
@@ -90,7 +95,7 @@ impl Problem {
         let parts = shooting.split.parts(&self.space, geometry, emitter.patch);
         let source = |part: radiosity::Part| {
             let emitter = Emitter { centre: part.centre, power: power * part.share, ..emitter };
-            Source { environment, emitter, mask: self.clear_mask(power), form_factor: 1.0 }
+            Source { environment, shot, emitter, mask: self.clear_mask(power), form_factor: 1.0 }
         };
         parts.into_iter().map(source).collect()
     }
@@ -112,11 +117,13 @@ impl Problem {
     /// A source with what is left of its mask, for each neighbour that it enters (§4.2.3); for none where
     /// virtual walls gather what leaves.
     pub fn onward(&self, source: &Source, shot: &Shot) -> impl Iterator<Item = Source> {
-        let (from, emitter, masks) = (source.environment, source.emitter, self.walls.is_none());
+        let Source { environment: from, shot: number, emitter, .. } = *source;
+        let masks = self.walls.is_none();
         Side::ALL.into_iter().zip(&shot.outgoing).filter_map(move |(side, outgoing)| {
             let Outgoing { mask, form_factor } = outgoing.as_ref().filter(|_| masks)?;
             let environment = self.decomposition.neighbour(from, side);
-            Some(Source { environment, emitter, mask: mask.clone(), form_factor: *form_factor })
+            let (mask, form_factor) = (mask.clone(), *form_factor);
+            Some(Source { environment, shot: number, emitter, mask, form_factor })
         })
     }
 

@@ -7,6 +7,9 @@ use radiosity::{Emitter, Mask, Rgb};
 pub struct Source {
     /// The local environment that it is for.
     pub environment: u32,
+    /// The number of the emitter's shots by its node: with the emitter's environment and patch, the identity of
+    /// a shot. Two shots of one patch are two sources, also where their power is the same.
+    pub shot: u32,
     /// Geometry and photometry of the emitter.
     pub emitter: Emitter,
     /// True for the pixels that arrive there.

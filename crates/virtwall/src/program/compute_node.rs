@@ -6,7 +6,7 @@ use std::sync::Arc;
 use radiosity::{Operation, Rgb, Shot, Work};
 
 use super::node_result::NodeResult;
-use super::process::{Event, Process, Step, Unreadable};
+use super::process::{Event, Process, ProgramError, Step};
 use super::queue::{Queue, Turn};
 use super::region::{BestPatch, Region};
 use super::rules::{Order, Ties};
@@ -32,7 +32,7 @@ pub struct ComputeNode {
     pub(super) selecting: bool,
     done: bool,
     shots: Shots,
-    pub(super) transit: Transit,
+    transit: Transit,
 }
 
 /// Shots of local patches and of received sources.
@@ -42,11 +42,29 @@ struct Shots {
     received: u64,
 }
 
-/// Sources that left environments and those that were shot in the next: their number and power, W.
+/// Sources that left environments, and those that were shot in the next.
 #[derive(Default)]
-pub(super) struct Transit {
-    sent: (u64, Rgb),
-    taken: (u64, Rgb),
+struct Transit {
+    sent: Flow,
+    taken: Flow,
+}
+
+/// A number of sources.
+#[derive(Default)]
+struct Flow {
+    sources: u64,
+    /// W.
+    power: Rgb,
+    /// The sum of the sources' absolute power, W: that of an over-shot patch may be negative.
+    magnitude: Rgb,
+}
+
+impl Flow {
+    fn count(&mut self, source: &Source) {
+        self.sources += 1;
+        self.power += source.power();
+        self.magnitude += source.power().abs();
+    }
 }
 
 /// Figure 9: compute while there are sources, then take part in the detection of the end, until it is
@@ -59,15 +77,17 @@ pub(super) struct Transit {
 pub async fn compute_node(
     process: &impl Process,
     mut node: ComputeNode,
-) -> Result<NodeResult, Unreadable> {
+) -> Result<NodeResult, ProgramError> {
     while !node.done {
-        while let Some(source) = node.choose_best_source(process).await {
-            let shot = node.compute_illumination(process, &source).await;
-            node.send_source_neighbours(process, &source, &shot).await;
-            node.send_to_host(process, &source, &shot).await;
-            node.read_arrived(process).await?;
+        match node.choose_best_source(process).await {
+            Some(source) => {
+                let shot = node.compute_illumination(process, &source).await;
+                node.send_source_neighbours(process, &source, &shot).await;
+                node.send_to_host(process, &source, &shot).await;
+                node.read_arrived(process).await?;
+            }
+            None => node.detect_termination(process).await?,
         }
-        node.detect_termination(process).await?;
     }
     Ok(node.result())
 }
@@ -135,7 +155,7 @@ impl ComputeNode {
     }
 
     /// Figure 9: "Read all the sources arrived from network, put them in queue".
-    async fn read_arrived(&mut self, process: &impl Process) -> Result<(), Unreadable> {
+    async fn read_arrived(&mut self, process: &impl Process) -> Result<(), ProgramError> {
         for (from, message) in process.receive().await? {
             match message {
                 Message::Source(source) => self.enqueue(process, source),
@@ -152,7 +172,7 @@ impl ComputeNode {
     }
 
     /// §4.2.4: with nothing left to do, pass the token on if it is here, else wait for a message.
-    async fn detect_termination(&mut self, process: &impl Process) -> Result<(), Unreadable> {
+    async fn detect_termination(&mut self, process: &impl Process) -> Result<(), ProgramError> {
         match self.termination.idle() {
             Action::Wait => {
                 process.wait(None).await;
@@ -238,8 +258,7 @@ impl ComputeNode {
         let source = self.queue.take(turn);
         process.note(Event::Taken { turn, waiting: self.queue.waiting() });
         self.shots.received += 1;
-        self.transit.taken.0 += 1;
-        self.transit.taken.1 += source.power();
+        self.transit.taken.count(&source);
         source
     }
 
@@ -260,8 +279,7 @@ impl ComputeNode {
     /// Count and report a source that leaves for its environment.
     pub(super) fn hand_on(&mut self, process: &impl Process, source: &Source) {
         process.note(Event::HandedOn(source));
-        self.transit.sent.0 += 1;
-        self.transit.sent.1 += source.power();
+        self.transit.sent.count(source);
     }
 
     /// Send sources to another node.
@@ -277,30 +295,32 @@ impl ComputeNode {
                 process.note(Event::Queued { source, turn, waiting });
             }
             // Merged with another, and shot with that.
-            None => self.transit.taken.0 += 1,
+            None => self.transit.taken.sources += 1,
         }
     }
 
-    /// What the service node collects (§4.2.4).
+    /// What the service node collects (§4.2.4). Over-shooting leaves negative power, which is to be shot as
+    /// well: so all sums are of magnitudes.
     fn sums(&mut self) -> Sums {
-        let in_parts: Rgb = self.parts.iter().map(|part| part.emitter.power).sum();
-        let unshot = self.region.unshot_power() + self.walls.power() + in_parts;
+        let parts: Rgb = self.parts.iter().map(|part| part.power().abs()).sum();
+        let unshot = self.region.unshot_magnitude() + self.walls.power().abs() + parts;
         Sums {
             rank: self.rank as u32,
             unshot: unshot.element_sum(),
-            sent: self.transit.sent.1.element_sum(),
-            taken: self.transit.taken.1.element_sum(),
+            sent: self.transit.sent.magnitude.element_sum(),
+            taken: self.transit.taken.magnitude.element_sum(),
         }
     }
 
     fn result(self) -> NodeResult {
         let Transit { sent, taken } = self.transit;
+        let parts: Rgb = self.parts.iter().map(Source::power).sum();
         NodeResult {
             rank: self.rank,
             local_shots: self.shots.local,
             received_shots: self.shots.received,
-            pending: sent.0 as i64 - taken.0 as i64,
-            in_transit: sent.1 - taken.1,
+            pending: sent.sources as i64 - taken.sources as i64 + self.parts.len() as i64,
+            in_transit: sent.power - taken.power + parts,
             on_walls: self.walls.power(),
             environments: self.region.results(),
         }

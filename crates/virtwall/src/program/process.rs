@@ -29,8 +29,8 @@ pub trait Process {
     /// The messages that have arrived since the last call, with their senders, in order of arrival.
     ///
     /// # Errors
-    /// If one of them cannot be read.
-    async fn receive(&self) -> Result<Vec<(Rank, Message)>, Unreadable>;
+    /// If one of them cannot be read, or the run makes no progress.
+    async fn receive(&self) -> Result<Vec<(Rank, Message)>, ProgramError>;
 
     /// Idle until a message has arrived that was not received, or until a time. Returns whether a message has
     /// arrived.
@@ -91,14 +91,26 @@ pub enum Event<'a> {
     },
 }
 
-/// A message that cannot be read. It ends the run.
+/// Why a program cannot go on. It ends the run.
 #[derive(Clone, Debug, Error, PartialEq)]
-#[error("process {to} received a message from process {from} that cannot be read: {error}")]
-pub struct Unreadable {
-    /// The sender.
-    pub from: Rank,
-    /// The receiver.
-    pub to: Rank,
-    /// What is wrong with it.
-    pub error: DecodeError,
+pub enum ProgramError {
+    /// A message that cannot be read.
+    #[error("process {to} received a message from process {from} that cannot be read: {error}")]
+    Unreadable {
+        /// The sender.
+        from: Rank,
+        /// The receiver.
+        to: Rank,
+        /// What is wrong with it.
+        error: DecodeError,
+    },
+    /// Shots go on, but carry no less light.
+    #[error(
+        "no progress: {shots} shots carried no less light than the {shots} before them \
+         (limit: \"stop.shots_without_progress\")"
+    )]
+    NoProgress {
+        /// The limit.
+        shots: u64,
+    },
 }

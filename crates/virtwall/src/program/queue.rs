@@ -52,7 +52,7 @@ impl Queue {
         let waiting = self.by_emitter.get(&emitter).into_iter().flatten();
         let same = waiting.copied().find(|turn| {
             source.emitter.is_of_a_wall()
-                || self.merge_masks && self.waiting[turn].emitter == source.emitter
+                || self.merge_masks && are_of_one_shot(&self.waiting[turn], &source)
         });
         match same {
             Some(turn) => {
@@ -142,6 +142,11 @@ fn emitter_of(source: &Source) -> (u32, u32, u32) {
     (source.environment, source.emitter.environment, source.emitter.patch)
 }
 
+/// Whether two sources of a patch are parts of one shot. A shot of a cut patch has several emitters.
+fn are_of_one_shot(a: &Source, b: &Source) -> bool {
+    a.shot == b.shot && a.emitter == b.emitter
+}
+
 /// Add a source to another of the same emitter: power to power on a virtual wall, else mask to mask.
 fn merge(waiting: &mut Source, source: &Source) {
     if source.emitter.is_of_a_wall() {
@@ -171,6 +176,7 @@ mod tests {
                 merge_masks
                     && other.environment == source.environment
                     && other.emitter == source.emitter
+                    && other.shot == source.shot
             };
             if let Some((_, waiting)) = self.0.iter_mut().find(|(_, other)| same(other)) {
                 merge(waiting, &source);
@@ -194,7 +200,7 @@ mod tests {
         }
     }
 
-    fn source(environment: u32, patch: u32, power: f64, pixel: u32) -> Source {
+    fn source(environment: u32, patch: u32, shot: u32, pixel: u32) -> Source {
         let mut mask = Mask::none(64);
         mask.set(pixel);
         let emitter = Emitter {
@@ -203,23 +209,23 @@ mod tests {
             polygon: 0,
             centre: DVec3::ZERO,
             normal: DVec3::Z,
-            power: Rgb::splat(power),
-            radiosity: Rgb::splat(power),
+            power: Rgb::splat(f64::from(shot % 3)),
+            radiosity: Rgb::splat(f64::from(shot % 3)),
         };
-        Source { environment, emitter, mask, form_factor: 1.0 / 64.0 }
+        Source { environment, shot, emitter, mask, form_factor: 1.0 / 64.0 }
     }
 
     proptest! {
         #[test]
         fn it_is_a_list_that_is_searched(
             merge_masks: bool,
-            // Environment, patch, power, pixel; then which one to take, if any.
+            // Environment, patch, shot, pixel; then which one to take, if any. Different shots may have equal power.
             steps in proptest::collection::vec(
-                ((0u32..3, 0u32..3, 0u8..3, 0u32..64), proptest::option::of(0u32..4)), 1..60),
+                ((0u32..3, 0u32..3, 0u32..5, 0u32..64), proptest::option::of(0u32..4)), 1..60),
         ) {
             let (mut queue, mut list) = (Queue::new(Selection::Energy, merge_masks), List::default());
-            for ((environment, patch, power, pixel), take) in steps {
-                let source = source(environment, patch, f64::from(power), pixel);
+            for ((environment, patch, shot, pixel), take) in steps {
+                let source = source(environment, patch, shot, pixel);
                 prop_assert_eq!(queue.push(Box::new(source.clone())), list.push(source, merge_masks));
                 // 3 stands for any environment.
                 if let Some(only) = take {

@@ -15,6 +15,8 @@ pub(super) struct Region {
     problem: Arc<Problem>,
     selection: Selection,
     shooting: Shooting,
+    /// Shots of local patches so far.
+    shots: u32,
     /// Local patches below this value are not selected.
     threshold: f64,
     /// The environments, by rising number.
@@ -33,7 +35,7 @@ struct Environment {
     values: Greatest,
     /// The best patch as last noted.
     best: Option<u32>,
-    /// The sum of unshot power, W; none since the light last changed.
+    /// The sum of absolute unshot power, W; none since the light last changed.
     unshot: Option<Rgb>,
 }
 
@@ -92,6 +94,7 @@ impl Region {
             problem: Arc::clone(problem),
             selection,
             shooting,
+            shots: 0,
             threshold,
             bests: Greatest::new(environments.iter().map(Environment::best_value)),
             changed: environments.iter().map(|environment| environment.number).collect(),
@@ -165,7 +168,8 @@ impl Region {
         // The unshot power of a patch becomes negative by over-shooting.
         self.environments[place].light.unshot[patch as usize] *= 1.0 - share;
         self.revalue(place, [patch].into_iter());
-        self.problem.sources_of(emitter, &self.shooting)
+        self.shots = self.shots.wrapping_add(1);
+        self.problem.sources_of(self.shots, emitter, &self.shooting)
     }
 
     /// The unshot power of these patches has changed.
@@ -205,10 +209,10 @@ impl Region {
         shot.hits.iter().map(update).collect()
     }
 
-    /// Unshot power of all patches, W; summed again only where it has changed.
-    pub fn unshot_power(&mut self) -> Rgb {
+    /// The absolute unshot power of all patches, W; summed again only where it has changed.
+    pub fn unshot_magnitude(&mut self) -> Rgb {
         let sum = |one: &mut Environment| {
-            let sum = || one.light.unshot_power();
+            let sum = || one.light.unshot.iter().map(|power| power.abs()).sum();
             *one.unshot.get_or_insert_with(sum)
         };
         self.environments.iter_mut().map(sum).sum()

@@ -36,6 +36,9 @@ pub struct Rules {
     ///
     /// Choice C8: "on a regular basis" (§4.2.4).
     pub collect_every: Duration,
+    /// The run ends with an error when this number of shots carried no less light than as many shots before
+    /// them. Default: a thousand for each patch, but a million at least.
+    pub shots_without_progress: Option<u64>,
     /// Whether radiosity updates are sent to the service node after every shot (Figure 6).
     pub radiosity_updates: bool,
     /// Whether a mask that arrives while another of the same source waits for the same environment

@@ -2,7 +2,7 @@
 
 use desim::{Duration, Time};
 
-use super::process::{Process, Unreadable};
+use super::process::{Process, ProgramError};
 use crate::wire::{Message, Sums};
 
 /// When the service node collects, and when it tells compute nodes to stop selecting patches.
@@ -12,7 +12,7 @@ pub struct Collection {
     pub compute_nodes: usize,
     /// Time from the end of one collection to the next.
     pub every: Duration,
-    /// Stop when less than this power is unshot or in transit, W.
+    /// Stop when less than this power is unshot or in transit, W; 0 never stops.
     pub stop_below: f64,
 }
 
@@ -54,7 +54,7 @@ pub async fn service_node(
     process: &impl Process,
     display: &impl Display,
     collection: Collection,
-) -> Result<(), Unreadable> {
+) -> Result<(), ProgramError> {
     let sums = vec![None; collection.compute_nodes];
     let mut node = ServiceNode { process, display, missing: sums.len(), sums, done: false };
     let mut stopped = false;
@@ -86,7 +86,7 @@ struct ServiceNode<'a, P, D> {
 
 impl<P: Process, D: Display> ServiceNode<'_, P, D> {
     /// Receive until a time or the end.
-    async fn receive_until(&mut self, time: Time) -> Result<(), Unreadable> {
+    async fn receive_until(&mut self, time: Time) -> Result<(), ProgramError> {
         while !self.done && self.process.wait(Some(time)).await {
             self.receive().await?;
         }
@@ -94,7 +94,7 @@ impl<P: Process, D: Display> ServiceNode<'_, P, D> {
     }
 
     /// Ask every compute node for its sums and receive until all have answered, or the end.
-    async fn collect(&mut self) -> Result<(), Unreadable> {
+    async fn collect(&mut self) -> Result<(), ProgramError> {
         if self.done {
             return Ok(());
         }
@@ -111,7 +111,7 @@ impl<P: Process, D: Display> ServiceNode<'_, P, D> {
     /// Read what has arrived, and send radiosity updates on to the display.
     ///
     /// A service node that receives more updates than it can send collects late.
-    async fn receive(&mut self) -> Result<(), Unreadable> {
+    async fn receive(&mut self) -> Result<(), ProgramError> {
         self.read_arrived().await?;
         while self.display.socket_send().await {
             if self.display.wants_more() {
@@ -121,7 +121,7 @@ impl<P: Process, D: Display> ServiceNode<'_, P, D> {
         Ok(())
     }
 
-    async fn read_arrived(&mut self) -> Result<(), Unreadable> {
+    async fn read_arrived(&mut self) -> Result<(), ProgramError> {
         for (from, message) in self.process.receive().await? {
             match message {
                 Message::Sums(sums) => {

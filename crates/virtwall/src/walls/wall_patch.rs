@@ -33,7 +33,7 @@ impl WallPatch {
             let power = Rgb::from_array(power.map(f64::from));
             let emitter = walls.emitter(&around, side, [self.patch, bin], power);
             let mask = Mask::all(walls.rays_of(&emitter).map_or(0, Hemisphere::pixels));
-            Source { environment, emitter, mask, form_factor: 1.0 }
+            Source { environment, shot: 0, emitter, mask, form_factor: 1.0 }
         };
         held.map(source).collect()
     }

@@ -148,7 +148,13 @@ mod tests {
             power: DVec3::new(1.0, 2.0, 3.5),
             radiosity: DVec3::new(10.0, 20.0, 35.0),
         };
-        Message::Source(Box::new(Source { environment: 8, emitter, mask, form_factor: 0.25 }))
+        Message::Source(Box::new(Source {
+            environment: 8,
+            shot: 3,
+            emitter,
+            mask,
+            form_factor: 0.25,
+        }))
     }
 
     /// Every third bin is empty.
@@ -186,7 +192,7 @@ mod tests {
     #[test]
     fn a_source_of_the_default_hemisphere_takes_4_kb() {
         let bytes = source(30_976).encode().len();
-        assert_eq!(bytes, 1 + 5 * 4 + 4 * 24 + 8 + 3_872);
+        assert_eq!(bytes, 1 + 6 * 4 + 4 * 24 + 8 + 3_872);
         assert!(bytes <= 4_096);
         for (bits, more) in [(DepthBits::Eight, 30_976), (DepthBits::Sixteen, 2 * 30_976)] {
             assert_eq!(dimmed(30_976, bits).encode().len(), bytes - 3_872 + more);

@@ -22,10 +22,11 @@ fn layout(mask: &Mask) -> u32 {
 
 /// Append the bytes of a source.
 pub(super) fn encode(source: &Source, to: &mut Vec<u8>) {
-    let Source { environment, emitter, mask, form_factor } = source;
+    let Source { environment, shot, emitter, mask, form_factor } = source;
     to.reserve(160 + (mask.pixels() * mask.bits_a_pixel() / 8) as usize);
     let pixels = mask.pixels() | layout(mask) << PIXEL_BITS;
-    let numbers = [*environment, emitter.environment, emitter.patch, emitter.polygon, pixels];
+    let numbers =
+        [*environment, *shot, emitter.environment, emitter.patch, emitter.polygon, pixels];
     numbers.iter().for_each(|n| to.extend(n.to_le_bytes()));
     for vector in [emitter.centre, emitter.normal, emitter.power, emitter.radiosity] {
         vector.to_array().iter().for_each(|x| to.extend(x.to_le_bytes()));
@@ -50,7 +51,7 @@ fn encode_words(words: &[u64], to: &mut Vec<u8>) {
 
 /// Decodes a source. Its mask takes all bytes that are left.
 pub(super) fn decode(from: &mut Reader) -> Result<Source, DecodeError> {
-    let (environment, emitter_environment) = (from.u32()?, from.u32()?);
+    let (environment, shot, emitter_environment) = (from.u32()?, from.u32()?, from.u32()?);
     let (patch, polygon, pixels) = (from.u32()?, from.u32()?, from.u32()?);
     let emitter = Emitter {
         environment: emitter_environment,
@@ -64,7 +65,7 @@ pub(super) fn decode(from: &mut Reader) -> Result<Source, DecodeError> {
     let form_factor = from.f64()?;
     let (pixels, layout) = (pixels & ((1 << PIXEL_BITS) - 1), pixels >> PIXEL_BITS);
     let mask = decode_mask(std::mem::take(&mut from.0), pixels, layout)?;
-    Ok(Source { environment, emitter, mask, form_factor })
+    Ok(Source { environment, shot, emitter, mask, form_factor })
 }
 
 /// A mask of `pixels` pixels from its bytes.

@@ -102,6 +102,7 @@ pub fn rules() -> Rules {
         patch_threshold: 0.002,
         wall_threshold: 1e-4,
         energy_threshold: 0.0,
+        shots_without_progress: None,
         collect_every: Duration::from_seconds_f64(1.0),
         radiosity_updates: true,
         merge_masks: false,

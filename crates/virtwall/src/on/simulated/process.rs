@@ -14,7 +14,7 @@ use super::prices::Prices;
 use super::storage::Storage;
 use crate::on::host::{Host, Meter, decode};
 use crate::problem::{Problem, Rank};
-use crate::program::{Display, Event, Process, Step, Unreadable};
+use crate::program::{Display, Event, Process, ProgramError, Step};
 use crate::wire::{Message, MessageKind};
 
 /// A process on a simulated node.
@@ -28,7 +28,7 @@ pub(super) struct SimulatedProcess {
     pub storage: Option<RefCell<Storage>>,
     pub interpreter: Option<Rc<RefCell<Interpreter>>>,
     pub host: Host,
-    pub meter: Meter,
+    pub meter: Rc<Meter>,
 }
 
 impl SimulatedProcess {
@@ -130,7 +130,8 @@ impl Process for SimulatedProcess {
         self.node.send(to, length, Envelope { from: self.rank(), kind, bytes }).await;
     }
 
-    async fn receive(&self) -> Result<Vec<(Rank, Message)>, Unreadable> {
+    async fn receive(&self) -> Result<Vec<(Rank, Message)>, ProgramError> {
+        self.host.progress.check()?;
         let arrived = self.node.received().await.into_iter();
         arrived.map(|envelope| decode(self.rank(), envelope.from, &envelope.bytes)).collect()
     }

@@ -8,7 +8,6 @@ use desim::{Duration, Simulation, Time};
 use multicomputer::{
     Caches, Machine, MachineObserver, Multicomputer, Network, NodeAccount, Socket,
 };
-use radiosity::Work;
 
 use super::footprint::Thing;
 use super::interpreter::{Envelope, Interpreter};
@@ -18,11 +17,11 @@ use super::process::SimulatedProcess;
 use super::storage::Storage;
 use crate::observe::SharedObserver;
 use crate::on::error::RunError;
-use crate::on::host::{Meter, total};
+use crate::on::host::{Meter, balanced, total};
 use crate::on::prepared::Prepared;
 use crate::problem::Rank;
-use crate::program::{NodeResult, Process, Unreadable, compute_node, service_node};
-use crate::run::{Counts, DisplayReport, NodeReport, Outcome, Run};
+use crate::program::{NodeResult, Process, ProgramError, compute_node, service_node};
+use crate::run::{DisplayReport, NodeReport, Outcome, Run};
 
 /// Carries out a run on a simulated machine.
 ///
@@ -66,6 +65,7 @@ pub fn simulate_observed(
     let handle = simulation.handle();
     let multicomputer = Multicomputer::with_network(&handle, machine, run.processors, network)?;
     let interpreter = observer.map(|observer| interpreter(observer, run, &multicomputer));
+    let meters: Vec<Rc<Meter>> = (0..=run.processors).map(|_| Rc::default()).collect();
     let process = |rank: Rank| SimulatedProcess {
         node: multicomputer.node(rank),
         problem: Arc::clone(&run.problem),
@@ -74,19 +74,18 @@ pub fn simulate_observed(
         storage: storage(run, machine),
         interpreter: interpreter.clone(),
         host: host.clone(),
-        meter: Meter::default(),
+        meter: Rc::clone(&meters[rank]),
     };
     let finished = Rc::new(RefCell::new(Vec::new()));
-    let unreadable = Rc::new(RefCell::new(None));
+    let failed = Rc::new(RefCell::new(None));
     for (rank, node) in nodes.into_iter().enumerate() {
-        let (process, finished, unreadable) =
-            (process(rank), Rc::clone(&finished), Rc::clone(&unreadable));
+        let (process, finished, failed) = (process(rank), Rc::clone(&finished), Rc::clone(&failed));
         let environments: Vec<u32> = node.environments().collect();
         handle.spawn(format!("compute node {rank}"), async move {
             process.settle(environments.into_iter());
             match compute_node(&process, node).await {
                 Ok(result) => finished.borrow_mut().push(Finished::new(&process, result)),
-                Err(error) => *unreadable.borrow_mut() = Some(error),
+                Err(error) => *failed.borrow_mut() = Some(error),
             }
             process.node.finish();
         });
@@ -94,21 +93,22 @@ pub fn simulate_observed(
     let service = process(run.processors);
     let socket = machine.display.as_ref();
     let socket = socket.map(|display| Rc::new(Socket::new(display, service.node.clone())));
-    let (display, failed) = (socket.clone(), Rc::clone(&unreadable));
+    let (display, service_failed) = (socket.clone(), Rc::clone(&failed));
     handle.spawn("service node", async move {
         if let Err(error) = service_node(&service, &display, collection).await {
-            *failed.borrow_mut() = Some(error);
+            *service_failed.borrow_mut() = Some(error);
         }
         service.node.finish();
     });
     let ended = simulation.run();
-    // If a process could not read a message, the others wait for it and the run stalls. So that error is
-    // reported first.
-    let failed: Option<Unreadable> = unreadable.take();
+    // If a program could not go on, the others wait for it and the run stalls. So its error is reported first.
+    let failed: Option<ProgramError> = failed.take();
     failed.map_or(Ok(()), Err)?;
     ended?;
     let accounts = multicomputer.accounts();
-    let outcome = outcome(run, &accounts, finished.take());
+    let counted = total(meters.iter().map(|meter| meter.read()));
+    let (time, results, reports) = reports(&accounts, finished.take());
+    let outcome = balanced(Outcome::of(run, time, results, counted, reports))?;
     let ended = (outcome.time, outcome.counts.update_messages);
     let display = socket.map(|s| DisplayReport::of(ended, &accounts, &s.account()));
     Ok(Outcome { display, ..outcome })
@@ -140,17 +140,19 @@ struct Finished {
     result: NodeResult,
     /// Time of cache misses, and of address translations.
     missing: [Duration; 2],
-    counted: (Counts, Work),
 }
 
 impl Finished {
     fn new(process: &SimulatedProcess, result: NodeResult) -> Finished {
-        let (missing, counted) = (process.missing(), process.meter.read());
-        Finished { at: process.now(), result, missing, counted }
+        Finished { at: process.now(), result, missing: process.missing() }
     }
 }
 
-fn outcome(run: &Run, accounts: &[NodeAccount], mut finished: Vec<Finished>) -> Outcome {
+/// The time of the last node's end, and what each has found and done, by rank.
+fn reports(
+    accounts: &[NodeAccount],
+    mut finished: Vec<Finished>,
+) -> (Time, Vec<NodeResult>, Vec<NodeReport>) {
     finished.sort_unstable_by_key(|node| node.result.rank);
     let time = finished.iter().map(|node| node.at).max().unwrap_or(Time::ZERO);
     let reports = accounts.iter().zip(&finished).map(|(account, node)| NodeReport {
@@ -165,7 +167,5 @@ fn outcome(run: &Run, accounts: &[NodeAccount], mut finished: Vec<Finished>) -> 
         ..NodeReport::default()
     });
     let reports = reports.collect();
-    let (results, counted): (Vec<_>, Vec<_>) =
-        finished.into_iter().map(|node| (node.result, node.counted)).unzip();
-    Outcome::of(run, time, results, total(counted), reports)
+    (time, finished.into_iter().map(|node| node.result).collect(), reports)
 }

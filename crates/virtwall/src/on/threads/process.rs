@@ -9,11 +9,17 @@ use radiosity::Work;
 
 use crate::on::host::{Host, Meter, decode};
 use crate::problem::Rank;
-use crate::program::{Event, Process, Step, Unreadable};
+use crate::program::{Event, Process, ProgramError, Step};
 use crate::wire::Message;
 
 /// The bytes of a message, and its sender.
 type Envelope = (Rank, Vec<u8>);
+
+/// Ends a process that another one would wait for.
+pub(super) fn end(to: &Sender<Envelope>) {
+    // A process that has ended already does not receive.
+    let _ = to.send((0, Message::Done.encode()));
+}
 
 /// A process on a thread of its own.
 pub(super) struct ThreadProcess {
@@ -41,8 +47,7 @@ impl ThreadProcess {
 
     /// Tell all processes that the run has ended, since this one cannot go on.
     pub fn end_all(&self) {
-        // Processes that have ended already do not receive.
-        self.to.iter().for_each(|to| _ = to.send((self.rank, Message::Done.encode())));
+        self.to.iter().for_each(end);
     }
 }
 
@@ -75,7 +80,8 @@ impl Process for ThreadProcess {
         let _ = self.to[to].send((self.rank, self.meter.encode(&message)));
     }
 
-    async fn receive(&self) -> Result<Vec<(Rank, Message)>, Unreadable> {
+    async fn receive(&self) -> Result<Vec<(Rank, Message)>, ProgramError> {
+        self.host.progress.check()?;
         let arrived = self.waiting.take().into_iter().chain(self.from.try_iter());
         arrived.map(|(from, bytes)| decode(self.rank, from, &bytes)).collect()
     }
