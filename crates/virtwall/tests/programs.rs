@@ -12,7 +12,7 @@ use desim::{Duration, Time};
 use multicomputer::{ContentionFree, Delivery, Formula, Message};
 use virtwall::{
     Ending, KeptShots, Outcome, Problem, Rules, Run, RunError, run_on_threads, simulate,
-    simulate_over,
+    simulate_observed,
 };
 
 fn run(problem: &Arc<Problem>, processors: usize, rules: Rules) -> Run {
@@ -128,7 +128,8 @@ fn a_premature_end_is_told() {
     let problem = two_rooms_cut([4, 2, 1]);
     let run = run(&problem, 8, rules());
     let outcome =
-        simulate_over(&run, &paragon(), Box::new(ContentionFree::new(SlowMasks))).unwrap();
+        simulate_observed(&run, &paragon(), Box::new(ContentionFree::new(SlowMasks)), None)
+            .unwrap();
     let Ending::TooEarly { lost } = outcome.ending else { panic!("{:?}", outcome.ending) };
     assert!(lost > 0.0 && lost < 1.0, "{lost}");
     let in_transit = outcome.energy.in_transit.element_sum();
