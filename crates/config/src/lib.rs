@@ -1,21 +1,14 @@
 //! Input files: what every reader of a JSON file needs, whatever the file is about.
-//!
-//! - [`Document`]: a file as its user wrote it, with the arguments laid over it
-//! - [`Fault`], [`Place`]: what is wrong with an input, and where
-//! - [`json`]: strict JSON, and the line on which a value begins
-//! - [`merge`], [`fill`]: files that extend others, and defaults
-//! - [`read()`], [`schema`]: JSON values as Rust types, unknown fields refused
-//! - [`Quantity`], [`Dimension`]: numbers with units, written as text
 
-mod dimension;
-mod document;
-mod fault;
-pub mod json;
-mod merge;
-mod place;
-mod quantity;
-mod read;
-pub mod schema;
+mod dimension; // units of physical dimensions
+mod document; // a file as its user wrote it, with the arguments laid over it
+mod fault; // what is wrong with an input
+pub mod json; // strict JSON, and the line on which a value begins
+mod merge; // files that extend others, and defaults
+mod place; // where in a file
+mod quantity; // numbers with units, written as text
+mod read; // JSON values as Rust types, unknown fields refused
+pub mod schema; // schemas of these types
 
 pub use dimension::{Dimension, parse};
 pub use document::{Document, read_text, unreadable};

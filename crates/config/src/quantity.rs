@@ -113,7 +113,7 @@ impl<M> Serialize for Quantity<M> {
 
 impl<M: Measure> JsonSchema for Quantity<M> {
     fn schema_name() -> Cow<'static, str> {
-        M::DIMENSION.noun().into()
+        std::any::type_name::<M>().rsplit("::").next().unwrap_or_default().into()
     }
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {

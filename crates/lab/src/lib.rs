@@ -2,32 +2,18 @@
 //!
 //! An experiment file is read, expanded and validated once ([`Plan::read`]); the plan's runs are carried
 //! out, each saved as it ends ([`carry_out`]); the results are written whole ([`Results`]).
-//!
-//! The folders, each of which imports only those above it:
-//!
-//! - [`files`]: reading of files: names, JSON, units, digests, and messages about what is wrong.
-//! - [`host`]: the computer that this program runs on: clock, memory, locks, the program file.
-//! - [`experiment`]: an experiment file: its fields, and the product of its lists.
-//! - [`open`]: scenes and machines: from their files to meshed and cut problems.
-//! - [`engine`]: one run. Only this folder calls the simulator.
-//! - [`accuracy`]: errors of runs, and the search for settings that reach an error.
-//! - [`table`]: the table of results: its columns, and what is read from it.
-//! - [`planning`]: from an experiment file to all its runs, every check included.
-//! - [`run`]: carries out the runs of a plan on worker threads.
-//! - [`results`]: from finished runs to tables, plots and reports.
-//! - [`inspect`]: single files, scenes and runs, without a folder of results.
 
-mod accuracy;
-mod engine;
-mod experiment;
-mod files;
-mod host;
-mod inspect;
-mod open;
-mod planning;
-mod results;
-mod run;
-mod table;
+mod accuracy; // errors of runs, and the search for settings that reach an error
+mod engine; // one run; only this folder calls the simulator
+mod experiment; // an experiment file: its fields, and the product of its lists
+mod files; // reading of files: names, JSON, units, digests, and messages about what is wrong
+mod host; // the computer that this program runs on: clock, memory, locks, the program file
+mod inspect; // single files, scenes and runs, without a folder of results
+mod open; // scenes and machines: from their files to meshed and cut problems
+mod planning; // from an experiment file to all its runs, every check included
+mod results; // from finished runs to tables, plots and reports
+mod run; // carries out the runs of a plan on worker threads
+mod table; // the table of results: its columns, and what is read from it
 
 pub use engine::simulator::{Light, On};
 pub use experiment::fields::Plot;

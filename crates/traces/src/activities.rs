@@ -4,7 +4,7 @@ use virtwall::{Activity, MessageKind};
 
 /// Every activity, ordered by number.
 pub(crate) fn activities() -> impl Iterator<Item = Activity> {
-    let sends = MessageKind::ALL.into_iter().map(Activity::Send);
+    let sends = MessageKind::all().map(Activity::Send);
     OTHERS.into_iter().chain(sends)
 }
 

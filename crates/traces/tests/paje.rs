@@ -56,7 +56,7 @@ fn pj_dump_reads_what_the_run_counted() {
     let counts = outcome.counts;
     assert_eq!(links(MessageKind::Source), (counts.messages, counts.message_bytes));
     assert_eq!(links(MessageKind::Update), (counts.update_messages, counts.update_bytes));
-    let all: u64 = MessageKind::ALL.iter().map(|&kind| links(kind).0).sum();
+    let all: u64 = MessageKind::all().map(|kind| links(kind).0).sum();
     assert_eq!(all, recording.messages.len() as u64);
     for (rank, report) in outcome.nodes.iter().enumerate() {
         let node = format!("node {rank}");
@@ -73,7 +73,7 @@ fn pj_dump_reads_what_the_run_counted() {
         close(time(&["selection", "local shot", "received shot"]), report.compute);
         close(time(&["wait"]), report.idle);
         let messages: Vec<String> =
-            MessageKind::ALL.iter().map(|kind| format!("send {}", kind.name())).collect();
+            MessageKind::all().map(|kind| format!("send {}", kind.name())).collect();
         let mut overheads: Vec<&str> = messages.iter().map(String::as_str).collect();
         overheads.push("receive");
         close(time(&overheads), report.overhead);

@@ -12,7 +12,7 @@ use desim::{Duration, Time};
 use multicomputer::{ContentionFree, Delivery, Formula, Message};
 use virtwall::{
     Ending, KeptShots, Outcome, Problem, ProgramError, Rules, Run, RunError, Shooting, SourceSplit,
-    run_on_threads, simulate, simulate_over,
+    run_on_threads, simulate, simulate_observed,
 };
 
 fn run(problem: &Arc<Problem>, processors: usize, rules: Rules) -> Run {
@@ -128,7 +128,8 @@ fn a_premature_end_is_told() {
     let problem = two_rooms_cut([4, 2, 1]);
     let run = run(&problem, 8, rules());
     let outcome =
-        simulate_over(&run, &paragon(), Box::new(ContentionFree::new(SlowMasks(10.0)))).unwrap();
+        simulate_observed(&run, &paragon(), Box::new(ContentionFree::new(SlowMasks(10.0))), None)
+            .unwrap();
     let Ending::TooEarly { lost } = outcome.ending else { panic!("{:?}", outcome.ending) };
     assert!(lost > 0.0 && lost < 1.0, "{lost}");
     let in_transit = outcome.energy.in_transit.element_sum();
@@ -151,7 +152,7 @@ fn a_premature_end_is_an_end_at_any_moment() {
             let rules = Rules { merge_masks, shooting, patch_threshold: 0.01, ..rules() };
             let run = run(&problem, processors, rules);
             let network = Box::new(ContentionFree::new(SlowMasks(seconds)));
-            let outcome = simulate_over(&run, &paragon(), network).unwrap();
+            let outcome = simulate_observed(&run, &paragon(), network, None).unwrap();
             early += u32::from(outcome.ending != Ending::Agreed);
         }
     }

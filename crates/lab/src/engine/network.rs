@@ -39,7 +39,7 @@ pub fn simulate(
         return Ok((simulate_observed(run, machine, machine.network(), observer)?, None));
     }
     let over = |network| {
-        let outcome = virtwall::simulate_over(run, machine, network)?;
+        let outcome = simulate_observed(run, machine, network, None)?;
         Ok::<_, RunError>((outcome.time, outcome))
     };
     let chosen = match machine.network_model {

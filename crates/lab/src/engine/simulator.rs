@@ -11,8 +11,8 @@ use multicomputer::{Machine, MessageLayer};
 use radiosity::{Operation, Rgb};
 use serde::Serialize;
 use virtwall::{
-    Ending, Instant, KeptShots, Outcome, Problem, Rules, Run, RunError, SharedObserver, Shooting,
-    SourceSplit, StartUpStep, Thing,
+    Ending, Instant, KeptShots, Outcome, Problem, Rules, Run, RunError, START_UP_STEPS,
+    SharedObserver, Shooting, SourceSplit, Thing,
 };
 
 use crate::engine::figures::{
@@ -45,11 +45,11 @@ pub fn operations() -> impl Iterator<Item = &'static str> {
 pub fn check_machine(machine: &Machine) -> Result<(), Fault> {
     all_of("operations", "processor.operations", operations(), &machine.processor.cycles)?;
     if let Some(memory) = &machine.node_memory {
-        let things = Thing::ALL.iter().map(|thing| thing.name());
+        let things = Thing::ALL.iter().map(|(_, name)| *name);
         all_of("sizes", "node_memory.sizes", things, &memory.sizes)?;
     }
     if let Some(start_up) = &machine.start_up {
-        let steps = StartUpStep::ALL.iter().map(|step| step.name());
+        let steps = START_UP_STEPS.iter().copied();
         all_of("operations", "start_up.operations", steps, &start_up.cycles)?;
     }
     Ok(())

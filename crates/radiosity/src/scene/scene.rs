@@ -111,7 +111,7 @@ impl Scene {
     }
 
     /// Material of a polygon, given by its index.
-    pub(crate) fn material_of(&self, polygon: u32) -> &Material {
+    pub fn material_of(&self, polygon: u32) -> &Material {
         self.material(&self.polygons[polygon as usize])
     }
 

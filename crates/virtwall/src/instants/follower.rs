@@ -48,7 +48,7 @@ pub(super) struct Follower {
     problem: Arc<Problem>,
     /// By environment.
     pub light: Vec<Light>,
-    energy: EnergyLedger,
+    pub energy: EnergyLedger,
     ambient: bool,
 }
 
@@ -59,10 +59,6 @@ impl Follower {
         let light = light.map(|geometry| Light::new(&problem.space, geometry)).collect();
         let energy = EnergyLedger::at_first(problem.emitted_power());
         Follower { problem, light, energy, ambient: run.rules.shooting.ambient }
-    }
-
-    pub fn selected(&mut self, source: &Source) {
-        self.energy.selected(source);
     }
 
     pub fn shot(&mut self, source: &Source, shot: &Shot, reflected: Rgb) {

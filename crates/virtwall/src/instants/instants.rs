@@ -48,7 +48,7 @@ impl<V: FnMut(Instant<'_>)> Visitor<V> {
 impl<V: FnMut(Instant<'_>)> Observer for Visitor<V> {
     fn selected(&mut self, now: Time, _: Rank, source: &Source) {
         self.pass(now);
-        self.follower.selected(source);
+        self.follower.energy.selected(source);
     }
 
     fn shot(&mut self, now: Time, _: Rank, source: &Source, shot: &Shot, reflected: Rgb) {
@@ -58,9 +58,6 @@ impl<V: FnMut(Instant<'_>)> Observer for Visitor<V> {
 }
 
 /// Simulate a run and visit it at each of `times`, in rising order. A time after the end shows the end.
-///
-/// # Errors
-/// Why the run could not be made, or did not end.
 pub fn visit_instants(
     run: &Run,
     machine: &Machine,
@@ -77,26 +74,4 @@ pub fn visit_instants(
     }
     drop(visitor);
     Ok(outcome)
-}
-
-/// Radiosity in W/m² at each of `times`, in rising order, by environment and patch.
-///
-/// # Errors
-/// Why the run could not be made, or did not end.
-pub fn radiosity_at(
-    run: &Run,
-    machine: &Machine,
-    network: Box<dyn Network>,
-    times: &[Time],
-) -> Result<Vec<Vec<Vec<Rgb>>>, RunError> {
-    let all = Rc::new(RefCell::new(Vec::new()));
-    let visit = {
-        let all = Rc::clone(&all);
-        move |instant: Instant<'_>| {
-            let radiosity = instant.radiosity().map(Iterator::collect).collect();
-            all.borrow_mut().push(radiosity);
-        }
-    };
-    visit_instants(run, machine, network, times, visit)?;
-    Ok(all.take())
 }

@@ -5,5 +5,5 @@ mod instants;
 mod stops;
 
 pub use follower::Instant;
-pub use instants::{radiosity_at, visit_instants};
+pub use instants::visit_instants;
 pub use stops::visit_stops;

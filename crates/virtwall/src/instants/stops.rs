@@ -71,7 +71,7 @@ impl<V: FnMut(Instant<'_>)> Observer for Stops<V> {
             }
             self.parts -= 1;
         }
-        self.follower.selected(source);
+        self.follower.energy.selected(source);
     }
 
     fn shot(&mut self, _: Time, _: Rank, source: &Source, shot: &Shot, reflected: Rgb) {
@@ -81,9 +81,6 @@ impl<V: FnMut(Instant<'_>)> Observer for Stops<V> {
 
 /// Simulate a run in one environment and visit what it would have ended with at each of `thresholds`, parts
 /// of the brightest patch, in falling order. Those below the run's own show its end.
-///
-/// # Errors
-/// Why the run could not be made, or did not end.
 pub fn visit_stops(
     run: &Run,
     machine: &Machine,

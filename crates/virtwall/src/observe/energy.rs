@@ -31,14 +31,7 @@ impl EnergyLedger {
         let found = self.absorbed + self.unshot + self.in_transit + self.escaped + self.medium;
         fraction((self.emitted - found).abs(), self.emitted)
     }
-}
 
-/// The ratio of a part to the whole, colours summed; 0 if the whole is 0.
-pub(crate) fn fraction(part: Rgb, whole: Rgb) -> f64 {
-    if whole == Rgb::ZERO { 0.0 } else { part.element_sum() / whole.element_sum() }
-}
-
-impl EnergyLedger {
     /// Before the first shot all is unshot.
     pub fn at_first(emitted: Rgb) -> EnergyLedger {
         EnergyLedger { emitted, unshot: emitted, ..EnergyLedger::default() }
@@ -63,4 +56,9 @@ impl EnergyLedger {
         self.in_transit += power * (onward - source.form_factor);
         self.unshot += reflected;
     }
+}
+
+/// The ratio of a part to the whole, colours summed; 0 if the whole is 0.
+pub(crate) fn fraction(part: Rgb, whole: Rgb) -> f64 {
+    if whole == Rgb::ZERO { 0.0 } else { part.element_sum() / whole.element_sum() }
 }

@@ -1,6 +1,6 @@
 //! The ambient term: what the unshot light would add if it were spread evenly over all surfaces.
 
-use radiosity::Rgb;
+use radiosity::{Patch, Rgb};
 
 use super::problem::Problem;
 
@@ -11,9 +11,10 @@ impl Problem {
     /// Source: Cohen, Chen, Wallace and Greenberg, "A progressive refinement approach to fast radiosity
     /// image generation", 1988.
     pub(crate) fn ambient_term(&self, unshot: Rgb) -> Rgb {
+        let reflectance = |patch: &Patch| self.space.scene.material_of(patch.polygon).reflectance;
         let patches = || self.environments.iter().flat_map(|environment| &environment.patches);
         let area: f64 = patches().map(|patch| patch.area).sum();
-        let reflecting: Rgb = patches().map(|p| reflectance(self, p.polygon) * p.area).sum();
+        let reflecting: Rgb = patches().map(|patch| reflectance(patch) * patch.area).sum();
         let left = Rgb::ONE - reflecting / area;
         match area > 0.0 && left.min_element() > 0.0 {
             true => unshot / area / left,
@@ -26,13 +27,9 @@ impl Problem {
         let ambient = self.ambient_term(unshot);
         for (environment, radiosity) in self.environments.iter().zip(radiosity) {
             for (patch, radiosity) in environment.patches.iter().zip(radiosity) {
-                *radiosity += reflectance(self, patch.polygon) * ambient;
+                let material = self.space.scene.material_of(patch.polygon);
+                *radiosity += material.reflectance * ambient;
             }
         }
     }
-}
-
-fn reflectance(problem: &Problem, polygon: u32) -> Rgb {
-    let scene = &problem.space.scene;
-    scene.material(&scene.polygons[polygon as usize]).reflectance
 }

@@ -201,7 +201,7 @@ impl Region {
         let scene = &self.problem.space.scene;
         let update = |&(patch, form_factor): &(u32, f64)| {
             let polygon = geometry.patches[patch as usize].polygon;
-            let reflectance = scene.material(&scene.polygons[polygon as usize]).reflectance;
+            let reflectance = scene.material_of(polygon).reflectance;
             let power = arriving * form_factor * reflectance;
             let radiosity = (power / geometry.radiosity_area(patch)).to_array();
             PatchUpdate { environment, patch, radiosity: radiosity.map(|x| x as f32) }

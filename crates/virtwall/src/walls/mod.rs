@@ -1,7 +1,6 @@
 //! Virtual walls between local environments, the method of RR-3008's reference [1] that masks replaced: energy
 //! that leaves an environment is gathered by wall patch and direction, and sent on from there.
 
-mod gathered;
 mod wall_patch;
 mod walls;
 

@@ -24,17 +24,22 @@ pub enum MessageKind {
 }
 
 impl MessageKind {
-    /// Every kind.
-    pub const ALL: [MessageKind; 8] = [
-        MessageKind::Source,
-        MessageKind::Update,
-        MessageKind::Collect,
-        MessageKind::Sums,
-        MessageKind::StopSelecting,
-        MessageKind::Token,
-        MessageKind::Done,
-        MessageKind::WallPatch,
+    /// Every kind with its name in reports and traces, in the order of the variants.
+    const NAMED: [(MessageKind, &'static str); 8] = [
+        (MessageKind::Source, "source"),
+        (MessageKind::Update, "update"),
+        (MessageKind::Collect, "collect"),
+        (MessageKind::Sums, "sums"),
+        (MessageKind::StopSelecting, "stop selecting"),
+        (MessageKind::Token, "token"),
+        (MessageKind::Done, "done"),
+        (MessageKind::WallPatch, "wall patch"),
     ];
+
+    /// Every kind.
+    pub fn all() -> impl Iterator<Item = MessageKind> {
+        MessageKind::NAMED.into_iter().map(|(kind, _)| kind)
+    }
 
     /// The kind of a message.
     pub fn of(message: &Message) -> MessageKind {
@@ -52,15 +57,6 @@ impl MessageKind {
 
     /// Its name in reports and traces.
     pub fn name(self) -> &'static str {
-        match self {
-            MessageKind::Source => "source",
-            MessageKind::Update => "update",
-            MessageKind::Collect => "collect",
-            MessageKind::Sums => "sums",
-            MessageKind::StopSelecting => "stop selecting",
-            MessageKind::Token => "token",
-            MessageKind::Done => "done",
-            MessageKind::WallPatch => "wall patch",
-        }
+        MessageKind::NAMED[self as usize].1
     }
 }

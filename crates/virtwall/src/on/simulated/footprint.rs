@@ -28,31 +28,17 @@ pub enum Thing {
 }
 
 impl Thing {
-    /// Every thing, in the order in which [`Footprint`] keeps them.
-    pub const ALL: [Thing; 8] = [
-        Thing::Program,
-        Thing::Direction,
-        Thing::Cell,
-        Thing::CellEntry,
-        Thing::Polygon,
-        Thing::Patch,
-        Thing::Source,
-        Thing::MaskWord,
+    /// Every thing with its name in machine files, in the order in which [`Footprint`] keeps them.
+    pub const ALL: [(Thing, &'static str); 8] = [
+        (Thing::Program, "program"),
+        (Thing::Direction, "direction"),
+        (Thing::Cell, "cell"),
+        (Thing::CellEntry, "cell_entry"),
+        (Thing::Polygon, "polygon"),
+        (Thing::Patch, "patch"),
+        (Thing::Source, "source"),
+        (Thing::MaskWord, "mask_word"),
     ];
-
-    /// Its name in machine files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Thing::Program => "program",
-            Thing::Direction => "direction",
-            Thing::Cell => "cell",
-            Thing::CellEntry => "cell_entry",
-            Thing::Polygon => "polygon",
-            Thing::Patch => "patch",
-            Thing::Source => "source",
-            Thing::MaskWord => "mask_word",
-        }
-    }
 }
 
 /// The number of each thing.
@@ -98,9 +84,8 @@ impl Footprint {
 
     /// Its bytes; things that the machine has no size for take none.
     pub fn bytes(&self, memory: &NodeMemory) -> u64 {
-        let size = |thing: Thing| memory.sizes.get(thing.name()).copied().unwrap_or(0);
-        let bytes = Thing::ALL.iter().zip(self.0).map(|(&thing, times)| size(thing) * times);
-        bytes.sum()
+        let size = |name: &str| memory.sizes.get(name).copied().unwrap_or(0);
+        Thing::ALL.iter().zip(self.0).map(|((_, name), times)| size(name) * times).sum()
     }
 }
 

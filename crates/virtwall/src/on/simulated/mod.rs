@@ -7,12 +7,10 @@ mod prices; // time of the counted operations
 mod process; // `Process` on a simulated node
 mod simulation; // a whole run
 mod start_up; // time of the initialisation (§4.2.1)
-mod start_up_step; // the steps of the initialisation
 mod storage; // addresses of records, and the caches (§5.2)
 
 pub use footprint::Thing;
 pub use layout::Layout;
-pub use simulation::{simulate, simulate_observed, simulate_over};
-pub use start_up::{StartUpReport, start_up};
-pub use start_up_step::StartUpStep;
+pub use simulation::{simulate, simulate_observed};
+pub use start_up::{START_UP_STEPS, StartUpReport, start_up};
 pub use storage::Storage;

@@ -28,25 +28,10 @@ use crate::run::{DisplayReport, NodeReport, Outcome, Run};
 /// # Errors
 /// Why the run could not be made, or did not end.
 pub fn simulate(run: &Run, machine: &Machine) -> Result<Outcome, RunError> {
-    simulate_over(run, machine, machine.network())
+    simulate_observed(run, machine, machine.network(), None)
 }
 
-/// Carries out a run on a simulated machine, with `network` in place of the machine's own.
-///
-/// # Errors
-/// Why the run could not be made, or did not end.
-pub fn simulate_over(
-    run: &Run,
-    machine: &Machine,
-    network: Box<dyn Network>,
-) -> Result<Outcome, RunError> {
-    simulate_observed(run, machine, network, None)
-}
-
-/// Like [`simulate_over`], with an observer of the run.
-///
-/// # Errors
-/// Why the run could not be made, or did not end.
+/// Carries out a run on a simulated machine, with `network` in place of the machine's own, and an observer.
 pub fn simulate_observed(
     run: &Run,
     machine: &Machine,
@@ -57,7 +42,7 @@ pub fn simulate_observed(
     let prices = Rc::new(Prices::of(machine)?);
     let memory = machine.node_memory.as_ref();
     if let Some(memory) = memory {
-        let things = Thing::ALL.map(Thing::name);
+        let things = Thing::ALL.map(|(_, name)| name);
         RunError::require_all("memory has no size", things, &memory.sizes, "bytes")?;
     }
     let memory = memory.cloned().map(Rc::new);

@@ -3,9 +3,13 @@
 use desim::Duration;
 use multicomputer::Machine;
 
-use super::start_up_step::StartUpStep;
 use crate::on::error::RunError;
 use crate::run::Run;
+
+/// The steps of the initialisation, by the names under which machine files price them: a polygon of the scene
+/// read from the file's text and compared with the node's environments; a piece of a polygon cut out for an
+/// environment and entered into cells; a patch of a quad-tree made.
+pub const START_UP_STEPS: [&str; 3] = ["polygon_read", "polygon_cut", "patch_made"];
 
 /// The start-up of the last compute node to become ready.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -33,8 +37,7 @@ pub fn start_up(
     scene_bytes: u64,
 ) -> Result<Option<StartUpReport>, RunError> {
     let Some(model) = &machine.start_up else { return Ok(None) };
-    let steps = StartUpStep::ALL.map(StartUpStep::name);
-    RunError::require_all("start-up has no price", steps, &model.cycles, "cycles")?;
+    RunError::require_all("start-up has no price", START_UP_STEPS, &model.cycles, "cycles")?;
     let problem = &run.problem;
     let owners =
         run.rules.mapping.owners(problem.environments.len() as u32, run.processors, run.rules.seed);
@@ -46,8 +49,8 @@ pub fn start_up(
     }
     let processor = &machine.processor;
     let seconds = |counts: &[u64; 3]| -> f64 {
-        let cycles = StartUpStep::ALL.iter().zip(counts);
-        let cycles = cycles.map(|(step, &times)| model.cycles[step.name()] * times as f64);
+        let cycles = START_UP_STEPS.iter().zip(counts);
+        let cycles = cycles.map(|(&step, &times)| model.cycles[step] * times as f64);
         cycles.sum::<f64>() * processor.scale / processor.clock
     };
     let readings = model.read(run.processors, scene_bytes);
