@@ -195,13 +195,14 @@ impl ComputeNode {
         let Shared { problem, rules, owners, processors, .. } = &**shared;
         let own = (0u32..).zip(owners).filter(|&(_, &owner)| owner == rank);
         let region = Region::new(problem, own.map(|(number, _)| number), rules, threshold);
+        let turn = region.numbers().next().unwrap_or_default();
         ComputeNode {
             rank,
             shared: Arc::clone(shared),
+            turn,
             region,
             queue: Queue::new(rules.selection, rules.merge_masks),
             parts: Vec::new(),
-            turn: 0,
             walls: Walls::default(),
             termination: protocol(rank, *processors),
             selecting: true,
