@@ -9,9 +9,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// Longest message, bytes: a longer one must be a mistake.
-const MOST_BYTES: u64 = 1_000_000_000;
+pub(super) const MOST_BYTES: u64 = 1_000_000_000;
 /// Latest time of a send, seconds: virtual time ends after 213 days.
-const LATEST: f64 = 86_400.0;
+pub(super) const LATEST: f64 = 86_400.0;
 
 /// The most messages of a circle that are named.
 const MOST_NAMED: usize = 20;
