@@ -6,7 +6,7 @@ use config::{Fault, Quantity};
 use csv::{ReaderBuilder, StringRecord, Trim};
 use desim::{Duration, Time};
 
-use super::trace::{LATEST, MOST_BYTES, Trace, TraceMessage};
+use super::trace::{LATEST, MOST_BYTES, Trace, TraceMessage, check_name};
 use crate::network::LinkParameters;
 
 const COLUMNS: [&str; 7] = ["id", "cycle", "time", "source", "destination", "bytes", "flits"];
@@ -144,6 +144,7 @@ impl Columns {
             }
         };
         let name = self.id.map_or_else(|| index.to_string(), |column| record[column].to_owned());
+        check_name(&name).map_err(|message| format!("id: {message}"))?;
         let (from, to) = (node(self.from, "source")?, node(self.to, "destination")?);
         Ok(TraceMessage { name, at: Time::ZERO + at, from, to, bytes, after: Vec::new() })
     }

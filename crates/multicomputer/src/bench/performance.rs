@@ -10,12 +10,29 @@ use super::schedule::{Operation, OperationKind, Schedule};
 use super::trace::TraceMessage;
 use crate::network::{Arrival, Message, Network, Place};
 
-/// Why a schedule does not end: the time, and messages or operations that wait for each other.
+/// Why a schedule does not end.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("at {at}: {text}")]
-pub struct StalledSchedule {
-    at: Time,
-    text: String,
+pub enum StalledSchedule {
+    /// Messages wait for each other in the network.
+    #[error("at {at}: {text}")]
+    Network {
+        /// When.
+        at: Time,
+        /// The messages, in words.
+        text: String,
+    },
+    /// Operations wait for each other.
+    #[error(
+        "at {at}: {count} operations wait for each other, such as {name}; expected a schedule that ends"
+    )]
+    Operations {
+        /// When the last operation that could end did.
+        at: Time,
+        /// The number of operations that wait.
+        count: usize,
+        /// The first of them.
+        name: String,
+    },
 }
 
 /// Performs a schedule on nodes at the first places of a network. Returns its messages, in the order of their
@@ -37,8 +54,8 @@ pub fn perform(
     {
         now = next;
         network.advance(now, &mut arrived).map_err(|deadlock| {
-            let name = |message: &Message| schedule.operations[message.id as usize].name.clone();
-            StalledSchedule { at: now, text: deadlock.describe(name) }
+            let name = |message: &Message| performance.sender(message.id).name.clone();
+            StalledSchedule::Network { at: now, text: deadlock.describe(name) }
         })?;
         arrived.drain(..).for_each(|arrival| performance.arrive(arrival));
         while let Some((_, event)) = performance.events.take_due(now) {
@@ -66,11 +83,11 @@ struct Performance<'a> {
     waits_for: Vec<usize>,
     followers: Vec<Vec<usize>>,
     ended: Vec<bool>,
-    /// By operation that sends.
-    messages: BTreeMap<usize, ReplayedMessage>,
+    /// By message, the operation that sends it, and its times.
+    messages: Vec<(usize, ReplayedMessage)>,
     mailboxes: BTreeMap<(usize, usize, u32), Mailbox>,
-    /// The message that a receive reads.
-    reads: BTreeMap<usize, usize>,
+    /// The message of each operation that sends one, and of each that reads one.
+    message_of: BTreeMap<usize, usize>,
     /// When each node's processor is free.
     free: Vec<Time>,
 }
@@ -85,18 +102,27 @@ impl Performance<'_> {
             waits_for: operations.iter().map(|operation| operation.after.len()).collect(),
             followers: vec![Vec::new(); operations.len()],
             ended: vec![false; operations.len()],
-            messages: BTreeMap::new(),
+            messages: Vec::new(),
             mailboxes: BTreeMap::new(),
-            reads: BTreeMap::new(),
+            message_of: BTreeMap::new(),
             free: vec![Time::ZERO; nodes],
         };
         for (index, operation) in operations.iter().enumerate() {
+            if let OperationKind::Send { .. } = operation.kind {
+                performance.message_of.insert(index, performance.messages.len());
+                performance.messages.push((index, ReplayedMessage::default()));
+            }
             operation.after.iter().for_each(|&earlier| performance.followers[earlier].push(index));
             if operation.after.is_empty() {
                 performance.events.schedule(Time::ZERO, Event::Ready(index));
             }
         }
         performance
+    }
+
+    /// The operation that sends a message.
+    fn sender(&self, message: u64) -> &Operation {
+        &self.operations[self.messages[message as usize].0]
     }
 
     fn happen(&mut self, event: Event, now: Time, network: &mut dyn Network) {
@@ -132,12 +158,13 @@ impl Performance<'_> {
             OperationKind::Compute(span) => now + span,
             OperationKind::Send { to, bytes, .. } => {
                 let [from, to] = [node, to].map(Place::new);
-                self.messages.entry(index).or_default().sent = now;
-                network.send(now, Message { id: index as u64, from, to, bytes })
+                let number = self.message_of[&index];
+                self.messages[number].1.sent = now;
+                network.send(now, Message { id: number as u64, from, to, bytes })
             }
             OperationKind::Receive { .. } => {
                 let end = now + network.receive_overhead();
-                self.messages.entry(self.reads[&index]).or_default().arrived = end;
+                self.messages[self.message_of[&index]].1.arrived = end;
                 end
             }
         };
@@ -146,11 +173,11 @@ impl Performance<'_> {
     }
 
     fn arrive(&mut self, arrival: Arrival) {
-        let index = arrival.message.id as usize;
-        self.messages.entry(index).or_default().stalls = arrival.stalls;
-        let Operation { node, kind, .. } = self.operations[index];
+        let number = arrival.message.id as usize;
+        self.messages[number].1.stalls = arrival.stalls;
+        let &Operation { node, kind, .. } = self.sender(arrival.message.id);
         let OperationKind::Send { to, tag, .. } = kind else { return };
-        self.mailboxes.entry((node, to, tag)).or_default().0.push_back(index);
+        self.mailboxes.entry((node, to, tag)).or_default().0.push_back(number);
         self.deliver((node, to, tag), arrival.at);
     }
 
@@ -160,7 +187,7 @@ impl Performance<'_> {
         while !arrived.is_empty()
             && let Some(receive) = ready.pop_front()
         {
-            self.reads.extend(arrived.pop_front().map(|message| (receive, message)));
+            self.message_of.extend(arrived.pop_front().map(|message| (receive, message)));
             self.events.schedule(now, Event::Begin(receive));
         }
     }
@@ -169,14 +196,10 @@ impl Performance<'_> {
         self,
         end: Time,
     ) -> Result<(Vec<(TraceMessage, ReplayedMessage)>, Time), StalledSchedule> {
-        if let Some(index) = self.ended.iter().position(|ended| !ended) {
-            let count = self.ended.iter().filter(|ended| !**ended).count();
-            let (name, node) = (&self.operations[index].name, self.operations[index].node);
-            let text = format!(
-                "{count} operations wait for each other or for messages that are never sent, \
-                 such as \"{name}\" of rank {node}"
-            );
-            return Err(StalledSchedule { at: end, text });
+        let mut waiting = self.operations.iter().zip(&self.ended).filter(|(_, ended)| !**ended);
+        if let Some((operation, _)) = waiting.next() {
+            let (count, name) = (waiting.count() + 1, operation.name.clone());
+            return Err(StalledSchedule::Operations { at: end, count, name });
         }
         let messages = self.messages.into_iter().filter_map(|(index, times)| {
             let Operation { name, node, kind, .. } = &self.operations[index];

@@ -99,10 +99,7 @@ fn check(items: &[MessageFile], nodes: usize) -> Result<Trace, Fault> {
     let mut numbers = BTreeMap::new();
     for (index, item) in items.iter().enumerate() {
         let (id, place) = (item.id.to_string(), Place::default().item(index).key("id"));
-        if id.is_empty() || id.contains(|c: char| c.is_whitespace() || ",\"'".contains(c)) {
-            let message = format!("found \"{id}\"; expected a name without spaces, commas, quotes");
-            return Err(Fault::at(place, message));
-        }
+        check_name(&id).map_err(|message| Fault::at(place.clone(), message))?;
         if let Some(first) = numbers.insert(id.clone(), index) {
             let message = format!("found \"{id}\", the id of [{first}]; expected one of its own");
             return Err(Fault::at(place, message));
@@ -125,6 +122,14 @@ fn check(items: &[MessageFile], nodes: usize) -> Result<Trace, Fault> {
             Err(Fault::at(Place::default().item(circle[0]).key("after"), message))
         }
     }
+}
+
+/// Checks a message's name, which stands in lists of names.
+pub(super) fn check_name(name: &str) -> Result<(), String> {
+    if name.is_empty() || name.contains(|c: char| c.is_whitespace() || ",\"'".contains(c)) {
+        return Err(format!("found \"{name}\"; expected a name without spaces, commas, quotes"));
+    }
+    Ok(())
 }
 
 /// Checks the fields of a message.
