@@ -48,6 +48,35 @@ third,0,1,1000000,0.000000000000,3.000000000000,2.000000000000,second
 }
 
 #[test]
+fn a_replay_reads_schedules_and_csv() {
+    let project = Project::new(SWEEP);
+    let goal = "num_ranks 2\nrank 0 {\na: calc 1000\nb: send 4096b to 1\nb requires a\n}\n\
+                rank 1 {\nrecv 4096b from 0\n}\n";
+    project.write("t.goal", goal);
+    project.write("t.csv", "time,source,destination,bytes\n1 us,0,1,4096\n");
+    project.write("bad.goal", "num_ranks 2\nrank 0 {\nsend 1b to 7\n}\n");
+    project.write("wait.goal", "num_ranks 1\nrank 0 {\na: calc 1\na requires a\n}\n");
+    project.write("bad.csv", "time,source,destination,bytes\n1 us,0,99,4096\n");
+    let replay = |name| virtwall(&project.path(""), &["machine", "replay", name]);
+    let head = "id,from,to,bytes,sent_s,arrived_s,blocked_s,blocked_by\n";
+    let times = ",0,1,4096,0.000001000000,0.000106055385,0.000000000000,\n";
+    for (name, id) in [("t.goal", "0.b"), ("t.csv", "0")] {
+        let (code, table, stderr) = replay(name);
+        assert_eq!((code, stderr.as_str()), (0, ""));
+        assert_eq!(table, format!("{head}{id}{times}"));
+    }
+    for (name, expected) in [
+        ("bad.goal", "bad.goal:3: found \"7\"; expected a rank, a whole number, at most 1"),
+        ("wait.goal", "wait.goal: at 0 s: 1 operations wait for each other, such as 0.a; expected"),
+        ("bad.csv", "bad.csv:2: destination: found \"99\"; expected a whole number, 0 to 57"),
+    ] {
+        let (code, table, stderr) = replay(name);
+        assert_eq!((code, table.as_str()), (2, ""));
+        assert!(stderr.starts_with(&format!("error: {expected}")), "{stderr}");
+    }
+}
+
+#[test]
 fn a_replay_can_go_to_a_file() {
     let project = Project::new(SWEEP);
     let trace = r#"[{"id": "a", "at": "0 us", "from": 0, "to": 3, "bytes": 4096, "after": []}]"#;

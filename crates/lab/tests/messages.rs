@@ -8,6 +8,7 @@ use std::fs;
 
 use common::Project;
 use lab::{Plan, Preparing};
+use serde_json::{Value, json};
 
 /// The message for an experiment file, with the project's folder taken out of it.
 fn message(project: &Project, arguments: &[&str]) -> String {
@@ -263,6 +264,51 @@ fn arguments_are_named_where_they_are_at_fault() {
         ("mapping=[\"blocks\",\"cyclic\"]", "nothing wrong"),
     ] {
         assert_eq!(message(&project, &[argument]), expected, "{argument}");
+    }
+}
+
+/// The host's memory for the simulated caches of all processors together.
+#[test]
+fn caches_that_would_fill_the_host_are_refused() {
+    let known =
+        |value: Value| json!({ "value": value, "provenance": "assumed", "source": "a test" });
+    let level = |size: &str, line: &str| {
+        json!({
+            "size": known(json!(size)), "line": known(json!(line)), "ways": known(json!(1)),
+            "miss_time": known(json!("1 ns")),
+        })
+    };
+    for (primary, secondary, processors, expected) in [
+        (
+            level("1 GiB", "1 B"),
+            Value::Null,
+            4,
+            "the caches of \"cached\" need 34359738368 B of this computer's memory: 4 processors x \
+             1073741824 lines x 8 B; expected at most 1073741824 B",
+        ),
+        (
+            level("32 MiB", "1 B"),
+            level("32 MiB", "1 B"),
+            4,
+            "the caches of \"cached\" need 2147483648 B of this computer's memory: 4 processors x \
+             67108864 lines x 8 B; expected at most 1073741824 B",
+        ),
+        (level("32 MiB", "1 B"), Value::Null, 4, ""),
+        (level("64 MiB", "1 B"), level("64 MiB", "1 B"), 1, ""),
+    ] {
+        let text = json!({
+            "title": "t", "scene": "box", "machine": "cached", "processors": processors,
+            "local_environments": 4
+        });
+        let project = Project::new(&text.to_string());
+        let caches = json!({ "primary": primary, "secondary": secondary });
+        let machine = json!({ "extends": "paragon-xps", "processor": { "caches": caches } });
+        project.write("machines/cached.json", &machine.to_string());
+        let expected = match expected {
+            "" => "nothing wrong".to_owned(),
+            text => format!("experiments/x.json:1: machine: {text}"),
+        };
+        assert_eq!(message(&project, &[]), expected);
     }
 }
 

@@ -86,6 +86,14 @@ impl Board {
         self.lock().viewers
     }
 
+    /// Adds a viewer, unless there are `most`. Returns whether it was added.
+    pub(crate) fn add_viewer(&self, most: usize) -> bool {
+        let mut state = self.lock();
+        let room = state.viewers < most;
+        state.viewers += usize::from(room);
+        room
+    }
+
     pub(crate) fn lock(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }

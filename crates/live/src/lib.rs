@@ -4,9 +4,12 @@
 //! pace, so none can delay a run or another viewer. A server ([`serve`]) has one page, its files and its stream
 //! of server-sent events.
 
+mod answer; // status, headers and body; the connection's end
 mod board; // what has happened in the runs so far
+mod deadline; // reading until a deadline
 mod host; // whether a request is addressed to this host
 mod reader; // one viewer's position on the board
+mod request; // reading a request, with limits
 mod server; // listening and answering
 mod stream; // the stream of server-sent events
 

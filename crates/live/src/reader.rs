@@ -4,6 +4,9 @@ use std::sync::Arc;
 
 use crate::board::State;
 
+/// Bytes of parts after which a viewer writes what it has read: parts that it holds stay in memory.
+const BATCH: usize = 1 << 20;
+
 /// What a viewer reads next.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Event {
@@ -73,8 +76,15 @@ impl Reader {
         let Some(run) = self.current else { return };
         let parts = state.runs.get(&run);
         if let Some(parts) = parts {
-            events.extend(parts.parts[self.parts..].iter().cloned().map(Event::Part));
-            self.parts = parts.parts.len();
+            let mut bytes = 0;
+            while let Some(part) = parts.parts.get(self.parts) {
+                if bytes >= BATCH {
+                    return;
+                }
+                bytes += part.len();
+                events.push(Event::Part(Arc::clone(part)));
+                self.parts += 1;
+            }
             if parts.cut && !self.cut {
                 self.cut = true;
                 events.push(Event::Cut(run));

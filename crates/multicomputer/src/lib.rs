@@ -13,8 +13,9 @@ mod node; // a node: processor, caches, memory, message layer, and where its tim
 mod sourced; // numbers of a machine file, with their provenance
 
 pub use bench::{
-    KernelError, Load, Measured, Pattern, ReplayDeadlock, ReplayedMessage, Trace, TraceMessage,
-    exchange, fluid_bound, hot_spot, ping_pong, replay, trace_schema,
+    KernelError, Load, Measured, Operation, OperationKind, Pattern, ReplayDeadlock,
+    ReplayedMessage, Schedule, StalledSchedule, Trace, TraceMessage, exchange, fluid_bound,
+    hot_spot, perform, ping_pong, replay, trace_schema,
 };
 pub use display::{Display, DisplayAccount, Ethernet, Socket, WhenFull};
 pub use machine::{

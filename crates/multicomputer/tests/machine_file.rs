@@ -156,6 +156,16 @@ fn caches_are_whole_sets_of_whole_lines() {
         let fault = caches(&primary, secondary).unwrap_err().to_string();
         assert!(fault.ends_with(message), "{fault}");
     }
+    for page in ["1 B", "256 B", "128 KiB", "1000 B"] {
+        let mut file = paragon();
+        let translations = json!({
+            "entries": known(json!(64)), "page": known(json!(page)), "miss_time": known(json!("1 us")),
+        });
+        file["processor"]["caches"] =
+            json!({ "primary": level("16 KiB", "16 B", 1), "translations": translations });
+        let fault = read(&file).unwrap_err().to_string();
+        assert!(fault.contains("; expected a power of two, 512 to 65536 B"), "{fault}");
+    }
 }
 
 #[test]

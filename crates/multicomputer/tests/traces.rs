@@ -93,6 +93,36 @@ fn circles_are_named() {
     );
 }
 
+/// `count` messages between two nodes, each after the one that `after` gives it.
+fn chain(count: usize, after: impl Fn(usize) -> Option<usize>) -> String {
+    let items = (0..count).map(|i| {
+        let after = Vec::from_iter(after(i));
+        let (from, to) = (i % 2, 1 - i % 2);
+        json!({ "id": i, "at": "0 us", "from": from, "to": to, "bytes": 64, "after": after })
+    });
+    Value::from_iter(items).to_string()
+}
+
+#[test]
+fn chains_and_circles_may_be_long() {
+    const COUNT: usize = 100_000;
+    for text in [
+        chain(COUNT, |i| i.checked_sub(1)),
+        chain(COUNT, |i| Some(i + 1).filter(|&next| next < COUNT)),
+    ] {
+        assert_eq!(Trace::from_json(&text, "t.json", 4).unwrap().messages.len(), COUNT);
+    }
+    // A circle, and a chain of messages that wait for it.
+    for (count, length) in [(COUNT, COUNT), (100, 99), (100, 21), (100, 20)] {
+        let text = chain(count, |i| i.checked_sub(1).or(Some(length - 1)));
+        let fault = Trace::from_json(&text, "t.json", 4).unwrap_err().to_string();
+        let begin = format!("found a circle, \"0\" after \"{}\" after ", length - 1);
+        assert!(fault.contains(&begin) && fault.len() < 1_000, "{fault:.100}");
+        let end = format!(" and so on, {} more; expected messages that can be sent", length - 19);
+        assert!(fault.ends_with(&end), "{fault}");
+    }
+}
+
 #[test]
 fn the_committed_schema_is_up_to_date() {
     let path = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../machines/schemas"));

@@ -6,7 +6,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use desim::{Duration, Time};
-use multicomputer::Machine;
+use multicomputer::{CacheLevel, Machine};
 use radiosity::{Hemisphere, HemisphereKind, PatchSize};
 use virtwall::{
     KeptShots, Mapping, Observers, Order, Outcome, Problem, ProblemOptions, Rules, Run, Selection,
@@ -17,7 +17,7 @@ use crate::broadcast::{Broadcast, Subscriber};
 use crate::explain::AnalysedRun;
 use crate::pack::{Reader, nanoseconds, shown_spans};
 use crate::page::ReportParts;
-use crate::record::{LightRecording, NodeState, RecordedRun};
+use crate::record::{LightRecording, NodeState, RecordedRun, is_shot};
 
 const PROCESSORS: usize = 5;
 
@@ -143,6 +143,35 @@ fn the_time_breakdown_is_complete() {
 }
 
 /// Runs share their shots, and the same recordings give the same bytes.
+/// Cache misses are a second span of each shot.
+#[test]
+fn seconds_of_environments_are_those_of_their_shots() {
+    let problem = problem();
+    let seconds = |processors, caches: &[CacheLevel]| {
+        let mut machine = machine();
+        machine.processor.caches = caches.to_vec();
+        let recording = Rc::new(RefCell::new(LightRecording::new(&problem, processors)));
+        observed(&problem, processors, &machine, recording.clone());
+        let recording = Rc::into_inner(recording).unwrap().into_inner();
+        let run = recorded_run(&problem, &machine, &recording);
+        let environments = AnalysedRun::of(&run).environments;
+        let nodes = recording.recording.nodes[..processors].iter();
+        let shots: Duration = nodes.map(|node| node.time(is_shot)).sum();
+        let sum: f64 = environments.iter().sum();
+        assert!((sum / shots.as_seconds_f64() - 1.0).abs() < 1e-9, "{sum} of {shots}");
+        environments
+    };
+    let cache = CacheLevel { size: 8_192, line: 32, ways: 1, miss_time: 1e-6 };
+    for processors in [1, PROCESSORS] {
+        seconds(processors, &[]);
+        seconds(processors, std::slice::from_ref(&cache));
+    }
+    // On one processor the shots are the same, and each takes longer.
+    let (without, with) = (seconds(1, &[]), seconds(1, &[cache]));
+    assert_eq!(without.len(), with.len());
+    assert!(without.iter().zip(&with).all(|(a, b)| a < b), "{without:?} {with:?}");
+}
+
 #[test]
 fn blocks_are_deterministic() {
     let (problem, machine) = (problem(), machine());

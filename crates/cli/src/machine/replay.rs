@@ -1,12 +1,14 @@
-//! `virtwall machine replay`: sends the messages of a trace file over a machine's network.
+//! `virtwall machine replay`: sends the messages of a file over a machine's network.
 
-use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::Args;
 use desim::Time;
-use lab::MachineFile;
-use multicomputer::{ChannelUse, Machine, Network, ReplayedMessage, Trace, replay};
+use lab::{MachineFile, Table};
+use multicomputer::{
+    ChannelUse, Machine, Network, ReplayedMessage, Schedule, StalledSchedule, Trace, TraceMessage,
+    perform, replay,
+};
 
 use super::network::NetworkArgument;
 use crate::exit::Exit;
@@ -14,7 +16,8 @@ use crate::files::write;
 
 #[derive(Args)]
 pub struct Arguments {
-    /// The messages: a JSON list of {"id", "at", "from", "to", "bytes", "after"}
+    /// The messages: a JSON list of {"id", "at", "from", "to", "bytes", "after"}; a .goal file, the schedule of
+    /// LogGOPSim; or a .csv file with the columns cycle or time, source, destination, bytes or flits
     trace: PathBuf,
     /// Name of a machine, or path to a machine file
     #[arg(long, value_name = "NAME", default_value = "paragon-xps")]
@@ -29,49 +32,90 @@ pub struct Arguments {
     channels: Option<PathBuf>,
 }
 
+type Replayed = Vec<(TraceMessage, ReplayedMessage)>;
+
 /// Sends the messages; returns when and how each of them arrived, as CSV.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let machine = MachineFile::open(&arguments.machine)?.machine;
-    let file = arguments.trace.display().to_string();
-    let text = config::read_text(&arguments.trace)?;
-    let trace = Trace::from_json(&text, &file, machine.nodes()).map_err(Exit::bad_input)?;
     let model = arguments.network.model(&machine);
     let mut network = machine.network_on(model).map_err(Exit::bad_input)?;
-    let replayed = replay(&trace, network.as_mut(), machine.topology()).map_err(Exit::failure)?;
+    let (replayed, end) = send(arguments, &machine, network.as_mut())?;
     if let Some(path) = &arguments.channels {
-        let end = replayed.iter().map(|message| message.arrived).max().unwrap_or_default();
-        let table = channels(&machine, network.as_ref(), end);
-        write(path, table)?;
+        write(path, csv(&channels(&machine, network.as_ref(), end))?)?;
     }
-    let table = table(&trace, &replayed);
+    let table = csv(&table(&replayed))?;
     let Some(path) = &arguments.out else { return Ok(table) };
     write(path, table)?;
     Ok(format!("{} messages; the table is in {}.\n", replayed.len(), path.display()))
 }
 
-fn table(trace: &Trace, replayed: &[ReplayedMessage]) -> String {
-    let mut table = "id,from,to,bytes,sent_s,arrived_s,blocked_s,blocked_by\n".to_owned();
-    for (message, replayed) in trace.messages.iter().zip(replayed) {
-        let (sent, arrived) = (seconds(replayed.sent.0), seconds(replayed.arrived.0));
-        let blocked = seconds(replayed.blocked().0);
-        let by = replayed.blockers().into_iter().map(|index| trace.messages[index].name.as_str());
-        let by = by.collect::<Vec<_>>().join(" ");
-        let (name, from, to, bytes) = (&message.name, message.from, message.to, message.bytes);
-        let _ = writeln!(table, "{name},{from},{to},{bytes},{sent},{arrived},{blocked},{by}");
-    }
-    table
+/// The messages of the file with their times, and the end of all.
+fn send(
+    arguments: &Arguments,
+    machine: &Machine,
+    network: &mut dyn Network,
+) -> Result<(Replayed, Time), Exit> {
+    let file = arguments.trace.display().to_string();
+    let text = config::read_text(&arguments.trace)?;
+    let extension = arguments.trace.extension().map(|name| name.to_ascii_lowercase());
+    let nodes = machine.nodes();
+    let trace = match extension.as_ref().and_then(|name| name.to_str()) {
+        Some("goal") => {
+            let schedule = Schedule::from_goal(&text, &file, nodes).map_err(Exit::bad_input)?;
+            return perform(&schedule, network).map_err(|stalled| match stalled {
+                StalledSchedule::Network { .. } => Exit::failure(stalled),
+                StalledSchedule::Operations { .. } => Exit::bad_input(format!("{file}: {stalled}")),
+            });
+        }
+        Some("csv") => Trace::from_csv(&text, &file, nodes, machine.parameters.links.as_ref()),
+        _ => Trace::from_json(&text, &file, nodes),
+    };
+    let trace = trace.map_err(Exit::bad_input)?;
+    let replayed = replay(&trace, network, machine.topology()).map_err(Exit::failure)?;
+    let end = replayed.iter().map(|message| message.arrived).max().unwrap_or_default();
+    Ok((trace.messages.into_iter().zip(replayed).collect(), end))
+}
+
+fn table(replayed: &Replayed) -> Table {
+    let row = |(message, times): &(TraceMessage, ReplayedMessage)| {
+        let by = times.blockers().into_iter().map(|index| replayed[index].0.name.as_str());
+        vec![
+            message.name.clone(),
+            message.from.to_string(),
+            message.to.to_string(),
+            message.bytes.to_string(),
+            seconds(times.sent.0),
+            seconds(times.arrived.0),
+            seconds(times.blocked().0),
+            by.collect::<Vec<_>>().join(" "),
+        ]
+    };
+    let columns = ["id", "from", "to", "bytes", "sent_s", "arrived_s", "blocked_s", "blocked_by"];
+    Table { columns: columns.map(str::to_owned).to_vec(), rows: replayed.iter().map(row).collect() }
 }
 
 /// The use of each channel until `end`; empty on network models without channels.
-fn channels(machine: &Machine, network: &dyn Network, end: Time) -> String {
-    let mut table = "channel,messages,carrying_s,held_s,utilisation\n".to_owned();
-    for ChannelUse { channel, messages, carrying, held } in network.channel_use() {
-        let name = channel.describe(machine.topology());
+fn channels(machine: &Machine, network: &dyn Network, end: Time) -> Table {
+    let row = |ChannelUse { channel, messages, carrying, held }| {
         let utilisation = carrying.as_seconds_f64() / end.as_seconds_f64().max(1e-12);
-        let (carrying, held) = (seconds(carrying.0), seconds(held.0));
-        let _ = writeln!(table, "{name},{messages},{carrying},{held},{utilisation:.6}");
+        vec![
+            channel.describe(machine.topology()),
+            messages.to_string(),
+            seconds(carrying.0),
+            seconds(held.0),
+            format!("{utilisation:.6}"),
+        ]
+    };
+    let columns = ["channel", "messages", "carrying_s", "held_s", "utilisation"];
+    Table {
+        columns: columns.map(str::to_owned).to_vec(),
+        rows: network.channel_use().into_iter().map(row).collect(),
     }
-    table
+}
+
+fn csv(table: &Table) -> Result<String, Exit> {
+    let bytes = table.to_csv().map_err(Exit::failure)?;
+    String::from_utf8(bytes).map_err(Exit::failure)
 }
 
 /// Ticks of 1 ps as exact decimals of a second.

@@ -13,6 +13,11 @@ const MOST_PARTS: u32 = 64;
 /// Most local environments: more are taken for a mistake.
 const MOST_ENVIRONMENTS: u32 = 65_536;
 
+/// The most memory of the host that the simulated caches of all processors of a run may take, bytes; each line
+/// takes [`LINE_BYTES`].
+const MOST_CACHE_BYTES: u128 = 1 << 30;
+const LINE_BYTES: u128 = 8;
+
 pub fn suits(typed: &Experiment, machine: &Machine) -> Result<(), WrongField> {
     let (processors, environments) = (typed.processors, typed.local_environments);
     if !(1..=MOST_ENVIRONMENTS).contains(&environments) {
@@ -34,6 +39,7 @@ pub fn suits(typed: &Experiment, machine: &Machine) -> Result<(), WrongField> {
         );
         return Err(("processors", message));
     }
+    cache_memory(typed, machine)?;
     if machine.start_up.is_none() && typed.count_start_up {
         let message = format!("the start-up of \"{}\" is not modelled", typed.machine);
         let message = message + "; expected a machine whose file has \"start_up\"";
@@ -62,6 +68,21 @@ pub fn suits(typed: &Experiment, machine: &Machine) -> Result<(), WrongField> {
     {
         let message = format!("{least}; expected 1 to {}, the pixels", typed.hemisphere.pixels);
         return Err(("hemisphere.least_pixels", message));
+    }
+    Ok(())
+}
+
+/// Whether the host has memory for the simulated caches of all processors.
+fn cache_memory(typed: &Experiment, machine: &Machine) -> Result<(), WrongField> {
+    let (lines, processors) = (machine.processor.cache_lines(), typed.processors);
+    let bytes = LINE_BYTES * u128::from(lines) * u128::from(processors);
+    if bytes > MOST_CACHE_BYTES {
+        let message = format!(
+            "the caches of \"{}\" need {bytes} B of this computer's memory: {processors} processors x \
+             {lines} lines x {LINE_BYTES} B; expected at most {MOST_CACHE_BYTES} B",
+            typed.machine
+        );
+        return Err(("machine", message));
     }
     Ok(())
 }

@@ -5,15 +5,16 @@ use std::fmt;
 
 use config::{Document, Fault, Place, Quantity, read, refuse_unknown_keys, schema};
 use desim::{Duration, Time};
-use petgraph::algo::tarjan_scc;
-use petgraph::graph::{DiGraph, NodeIndex};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// Longest message, bytes: a longer one must be a mistake.
-const MOST_BYTES: u64 = 1_000_000_000;
+pub(super) const MOST_BYTES: u64 = 1_000_000_000;
 /// Latest time of a send, seconds: virtual time ends after 213 days.
-const LATEST: f64 = 86_400.0;
+pub(super) const LATEST: f64 = 86_400.0;
+
+/// The most messages of a circle that are named.
+const MOST_NAMED: usize = 20;
 
 /// Messages to send.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -98,10 +99,7 @@ fn check(items: &[MessageFile], nodes: usize) -> Result<Trace, Fault> {
     let mut numbers = BTreeMap::new();
     for (index, item) in items.iter().enumerate() {
         let (id, place) = (item.id.to_string(), Place::default().item(index).key("id"));
-        if id.is_empty() || id.contains(|c: char| c.is_whitespace() || ",\"'".contains(c)) {
-            let message = format!("found \"{id}\"; expected a name without spaces, commas, quotes");
-            return Err(Fault::at(place, message));
-        }
+        check_name(&id).map_err(|message| Fault::at(place.clone(), message))?;
         if let Some(first) = numbers.insert(id.clone(), index) {
             let message = format!("found \"{id}\", the id of [{first}]; expected one of its own");
             return Err(Fault::at(place, message));
@@ -113,12 +111,25 @@ fn check(items: &[MessageFile], nodes: usize) -> Result<Trace, Fault> {
     match trace.circle() {
         None => Ok(trace),
         Some(circle) => {
-            let names = circle.iter().map(|&i| format!("\"{}\"", trace.messages[i].name));
-            let names = names.collect::<Vec<_>>().join(" after ");
+            let name = |&i: &usize| format!("\"{}\"", trace.messages[i].name);
+            let names = circle.iter().take(MOST_NAMED).map(name).collect::<Vec<_>>();
+            let rest = match circle.len().saturating_sub(MOST_NAMED) {
+                0 => String::new(),
+                rest => format!(" and so on, {rest} more"),
+            };
+            let names = names.join(" after ") + &rest;
             let message = format!("found a circle, {names}; expected messages that can be sent");
             Err(Fault::at(Place::default().item(circle[0]).key("after"), message))
         }
     }
+}
+
+/// Checks a message's name, which stands in lists of names.
+pub(super) fn check_name(name: &str) -> Result<(), String> {
+    if name.is_empty() || name.contains(|c: char| c.is_whitespace() || ",\"'".contains(c)) {
+        return Err(format!("found \"{name}\"; expected a name without spaces, commas, quotes"));
+    }
+    Ok(())
 }
 
 /// Checks the fields of a message.
@@ -168,24 +179,38 @@ impl Trace {
     /// A circle of messages, each of which waits for the next one; the first one is repeated at the end.
     /// None if all messages can be sent.
     fn circle(&self) -> Option<Vec<usize>> {
-        let edges = self.messages.iter().enumerate();
-        let edges =
-            edges.flat_map(|(i, item)| item.after.iter().map(move |&j| (i as u32, j as u32)));
-        let graph: DiGraph<(), ()> = DiGraph::from_edges(edges);
-        let components = tarjan_scc(&graph).into_iter();
-        let mut components = components.filter(|component| {
-            component.len() > 1 || graph.contains_edge(component[0], component[0])
-        });
-        let component = components.next()?;
-        let mut way: Vec<NodeIndex> = vec![*component.iter().min()?];
-        loop {
-            let here = way[way.len() - 1];
-            let next = graph.neighbors(here).filter(|next| component.contains(next)).min()?;
-            let seen = way.iter().position(|&earlier| earlier == next);
-            way.push(next);
-            if let Some(seen) = seen {
-                return Some(way[seen..].iter().map(|item| item.index()).collect());
+        let waiting = self.waiting();
+        let first = waiting.iter().position(|&waits| waits)?;
+        // A message that cannot be sent waits for another one: following them leads into a circle.
+        let next = |here: usize| self.messages[here].after.iter().copied().find(|&j| waiting[j]);
+        let way = std::iter::successors(Some(first), |&here| next(here));
+        let mut met = vec![false; self.messages.len()];
+        let inside = way.into_iter().find(|&here| std::mem::replace(&mut met[here], true))?;
+        let round = std::iter::successors(next(inside), |&here| next(here));
+        let mut circle = vec![inside];
+        circle.extend(round.take_while(|&here| here != inside));
+        let least = (0..circle.len()).min_by_key(|&i| circle[i])?;
+        circle.rotate_left(least);
+        circle.push(circle[0]);
+        Some(circle)
+    }
+
+    /// For each message, whether it can never be sent (Kahn's algorithm).
+    fn waiting(&self) -> Vec<bool> {
+        let mut waits_for: Vec<usize> = self.messages.iter().map(|m| m.after.len()).collect();
+        let mut followers = vec![Vec::new(); self.messages.len()];
+        for (i, message) in self.messages.iter().enumerate() {
+            message.after.iter().for_each(|&earlier| followers[earlier].push(i));
+        }
+        let mut ready: Vec<usize> = (0..waits_for.len()).filter(|&i| waits_for[i] == 0).collect();
+        while let Some(sent) = ready.pop() {
+            for &follower in &followers[sent] {
+                waits_for[follower] -= 1;
+                if waits_for[follower] == 0 {
+                    ready.push(follower);
+                }
             }
         }
+        waits_for.into_iter().map(|count| count > 0).collect()
     }
 }

@@ -8,6 +8,8 @@ use crate::node::CacheLevel;
 /// Largest line and cache, bytes: larger ones must be mistakes.
 const LONGEST_LINE: u64 = 65_536;
 const LARGEST_CACHE: u64 = 1 << 30;
+/// Shortest page, bytes, that of a VAX. The simulation counts the pages of the whole address space.
+const SHORTEST_PAGE: u64 = 512;
 
 /// The levels of a machine file. A line and a number of sets must be powers of two, and a line at least
 /// as long as those of the level before.
@@ -36,9 +38,10 @@ pub(crate) fn levels(files: &CachesFile) -> Result<Vec<CacheLevel>, Fault> {
 /// The translation look-aside buffer, as a fully associative cache of pages.
 pub(crate) fn translations(file: &TranslationsFile) -> Result<CacheLevel, Fault> {
     let (page, ways) = (file.page.si(), u64::from(file.entries.value.get()));
-    if page > LONGEST_LINE as f64 || page.fract() != 0.0 || !(page as u64).is_power_of_two() {
-        let expected = format!("expected a power of two, at most {LONGEST_LINE} B");
-        let message = format!("found {page} B; {expected}");
+    let allowed = SHORTEST_PAGE as f64..=LONGEST_LINE as f64;
+    if !allowed.contains(&page) || page.fract() != 0.0 || !(page as u64).is_power_of_two() {
+        let expected = format!("a power of two, {SHORTEST_PAGE} to {LONGEST_LINE} B");
+        let message = format!("found {page} B; expected {expected}");
         return Err(Fault::at(Place::of("processor.caches.translations.page.value"), message));
     }
     let line = page as u64;

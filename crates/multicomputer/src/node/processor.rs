@@ -24,4 +24,9 @@ impl Processor {
     pub fn price(&self, operation: &str) -> Option<f64> {
         self.cycles.get(operation).map(|cycles| cycles * self.scale / self.clock)
     }
+
+    /// Lines of all its caches: a simulation holds the number of each.
+    pub fn cache_lines(&self) -> u64 {
+        self.caches.iter().map(|level| level.size / level.line).sum()
+    }
 }

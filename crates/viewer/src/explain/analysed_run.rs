@@ -84,10 +84,11 @@ fn seconds_by_environment(nodes: &[NodeRecord]) -> Vec<f64> {
     let mut seconds = Vec::new();
     for node in nodes {
         let mut shots = node.shots.iter().peekable();
+        // A shot may have several spans, such as its kernel and its cache misses: it ends with the last of them.
+        // A shot that takes no time has none.
         for span in node.spans().filter(|span| is_shot(span.activity)) {
-            // Kernels that take no time leave no span.
             while shots.next_if(|shot| shot.at < span.to).is_some() {}
-            let Some(shot) = shots.next() else { break };
+            let Some(shot) = shots.peek() else { break };
             let environment = shot.environment as usize;
             seconds.resize(seconds.len().max(environment + 1), 0.0);
             seconds[environment] += (span.to - span.from).as_seconds_f64();
