@@ -19,6 +19,15 @@ use crate::files::quantity::{Fraction, Length, Period};
 /// Fields of an experiment file in which a list does not make a sweep.
 pub const UNSWEPT: [&str; 4] = ["$schema", "title", "compare_with", "plots"];
 
+/// Takes out of a point what its results are compared with, and plots: its light needs none of it.
+pub fn leave_out_comparisons(point: &mut Value) {
+    let Some(fields) = point.as_object_mut() else { return };
+    for field in ["compare_with", "reference", "error_causes", "plots"] {
+        fields.shift_remove(field);
+    }
+    fields.get_mut("accuracy").and_then(|of| of.as_object_mut()?.shift_remove("sweep"));
+}
+
 /// An experiment: the runs of a scene on a machine, and what to draw of them.
 ///
 /// One rule makes every sweep: where one value is expected, a list of values sweeps it. The runs

@@ -11,7 +11,8 @@ use crate::accuracy::answer::{self, Stored};
 use crate::accuracy::pilot::{Host, Pilots};
 use crate::accuracy::tuned::Tuned;
 use crate::accuracy::tuner::tune;
-use crate::experiment::fields::Experiment;
+use crate::experiment::accuracy;
+use crate::experiment::fields::{Experiment, leave_out_comparisons};
 use crate::experiment::machine::open_up;
 use crate::experiment::schema::FIELDS;
 use crate::experiment::sweep::{Point, Sweep};
@@ -19,6 +20,7 @@ use crate::files::digest::FileDigest;
 use crate::files::file::{self, PLAIN, is_plain};
 use crate::files::find::{FileKind, Found, find, named_from};
 use crate::host::host_clock::HostClock;
+use crate::host::host_memory::half_of_free_memory;
 use crate::host::program::program;
 use crate::open::problem;
 use crate::open::scene::Scene;
@@ -49,28 +51,45 @@ impl Plan {
         arguments: &[String],
         preparing: &Preparing,
     ) -> Result<Plan, Fault> {
-        for argument in arguments {
-            if argument.starts_with("machine.") {
-                open_up(&mut document.value);
-            }
-            document.set(argument)?;
-        }
-        let known = refuse_unknown_keys(&FIELDS, &document.value);
-        known.map_err(|fault| document.locate(fault))?;
-        let planner = Planner {
-            path,
-            folder: path.parent().unwrap_or(Path::new("")),
-            sweep: &Sweep::of(&document)?,
-            document: &document,
-            preparing,
-            scenes: Vec::new(),
-            machines: Machines::default(),
-            references: BTreeMap::new(),
-            stored: Vec::new(),
-            sweeps: BTreeMap::new(),
-        };
-        planner.plan()
+        let sweep = swept(&mut document, arguments)?;
+        Planner::new(path, &document, &sweep, preparing).plan()
     }
+
+    /// The same for the light of one run: its row in the results, from 1, or the last. Nothing else is
+    /// prepared, and nothing that the run is compared with.
+    pub(crate) fn of_row(
+        path: &Path,
+        mut document: Document,
+        arguments: &[String],
+        row: Option<usize>,
+    ) -> Result<(Plan, usize), Fault> {
+        let mut sweep = swept(&mut document, arguments)?;
+        let runs = sweep.points.len();
+        let row = row.unwrap_or(runs);
+        if !(1..=runs).contains(&row) {
+            let message = format!("{row}; expected a row of runs.csv, 1 to {runs}");
+            return Err(Fault::of_file("--run", message));
+        }
+        sweep.points = vec![sweep.points.swap_remove(row - 1)];
+        leave_out_comparisons(&mut sweep.points[0].value);
+        let (threads, memory) = (parallel::host_threads(), half_of_free_memory());
+        let preparing = Preparing { threads, memory, ..Preparing::default() };
+        let plan = Planner::new(path, &document, &sweep, &preparing).plan()?;
+        Ok((plan, row))
+    }
+}
+
+/// Applies `--set` arguments to an experiment and finds its runs.
+fn swept(document: &mut Document, arguments: &[String]) -> Result<Sweep, Fault> {
+    for argument in arguments {
+        if argument.starts_with("machine.") {
+            open_up(&mut document.value);
+        }
+        document.set(argument)?;
+    }
+    let known = refuse_unknown_keys(&FIELDS, &document.value);
+    known.map_err(|fault| document.locate(fault))?;
+    Sweep::of(document)
 }
 
 /// What planning has read so far.
@@ -104,11 +123,33 @@ struct Draft<'a> {
 /// A scene that was read, and the CPU seconds that it took.
 type Loaded = (Scene, f64);
 
-impl Planner<'_> {
+impl<'a> Planner<'a> {
+    fn new(
+        path: &'a Path,
+        document: &'a Document,
+        sweep: &'a Sweep,
+        preparing: &'a Preparing,
+    ) -> Planner<'a> {
+        Planner {
+            path,
+            folder: path.parent().unwrap_or(Path::new("")),
+            sweep,
+            document,
+            preparing,
+            scenes: Vec::new(),
+            machines: Machines::default(),
+            references: BTreeMap::new(),
+            stored: Vec::new(),
+            sweeps: BTreeMap::new(),
+        }
+    }
+
     fn plan(mut self) -> Result<Plan, Fault> {
         let name = self.name()?;
         let drafts = self.sweep.points.iter().map(|point| self.draft(point));
         let mut drafts = drafts.collect::<Result<Vec<Draft>, Fault>>()?;
+        // Before settings are found: those of one run are not those of others.
+        let resolved = self.resolved(&drafts[0].typed);
         let scenes = self.load()?;
         if self.preparing.finding {
             self.tune(&mut drafts, &scenes)?;
@@ -122,7 +163,6 @@ impl Planner<'_> {
         let runs = runs.collect::<Result<Vec<Run>, Fault>>()?;
         let first = &runs[0].point;
         let (title, plots) = (first.title.clone(), first.plots.clone());
-        let resolved = self.resolved(first);
         let (comparison, compared) = self.comparison(first)?;
 
         let mut files: Vec<FileDigest> =
@@ -355,6 +395,7 @@ impl Planner<'_> {
     fn resolved(&self, first: &Experiment) -> Value {
         let mut resolved = self.document.value.clone();
         fill(&mut resolved, serde_json::to_value(first).unwrap_or_default());
+        accuracy::without_replaced(&mut resolved);
         resolved
     }
 
