@@ -13,6 +13,7 @@ use crate::experiment::interfaces::{Interfaces, VirtualWalls};
 use crate::experiment::machine::MachineChoice;
 use crate::experiment::refine::RefineFields;
 use crate::experiment::source_split::SplitFields;
+use crate::files::WrongField;
 use crate::files::counts::Triple;
 use crate::files::quantity::{Fraction, Length, Period};
 
@@ -198,6 +199,25 @@ pub struct Stop {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1))]
     pub shots_without_progress: Option<std::num::NonZeroU32>,
+}
+
+/// Least threshold that a run reaches for certain, as a share: light fades far below it, down to the smallest
+/// numbers there are, which reflection no longer makes smaller.
+pub const LEAST_THRESHOLD: f64 = 1e-30;
+
+impl Stop {
+    /// Refuses thresholds under which a run would not end.
+    pub fn check(&self) -> Result<(), WrongField> {
+        let Stop { patch_threshold, energy_threshold, .. } = self;
+        if patch_threshold.value().max(energy_threshold.value()) >= LEAST_THRESHOLD {
+            return Ok(());
+        }
+        let message = format!(
+            "{patch_threshold}, and \"energy_threshold\" {energy_threshold}: the run would not end; expected \
+             1e-28 % or more for one of the two"
+        );
+        Err(("stop.patch_threshold", message))
+    }
 }
 
 impl Default for Stop {

@@ -1,10 +1,10 @@
-//! Makes a plan from an experiment file: makes every check, and loads each file once.
+//! Makes a plan of a sweep: makes every check, and loads each file once.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use config::{Document, Fault, Place, fill, read, refuse_unknown_keys};
+use config::{Document, Fault, Place, fill, read};
 use serde_json::Value;
 
 use crate::accuracy::answer::{self, Stored};
@@ -12,15 +12,12 @@ use crate::accuracy::pilot::{Host, Pilots};
 use crate::accuracy::tuned::Tuned;
 use crate::accuracy::tuner::tune;
 use crate::experiment::accuracy;
-use crate::experiment::fields::{Experiment, leave_out_comparisons};
-use crate::experiment::machine::open_up;
-use crate::experiment::schema::FIELDS;
+use crate::experiment::fields::Experiment;
 use crate::experiment::sweep::{Point, Sweep};
 use crate::files::digest::FileDigest;
 use crate::files::file::{self, PLAIN, is_plain};
 use crate::files::find::{FileKind, Found, find, named_from};
 use crate::host::host_clock::HostClock;
-use crate::host::host_memory::half_of_free_memory;
 use crate::host::program::program;
 use crate::open::problem;
 use crate::open::scene::Scene;
@@ -34,66 +31,8 @@ use crate::table::cheapest::{least_time, read_sweep};
 use crate::table::comparison::Comparison;
 use crate::table::runs_csv::Table;
 
-impl Plan {
-    /// Reads an experiment file, applies `--set path=value` arguments, validates all of it with its scenes and
-    /// machines, and searches the settings that it leaves open.
-    ///
-    /// # Errors
-    /// The first fault met. Nothing was written.
-    pub fn read(path: &Path, arguments: &[String], preparing: &Preparing) -> Result<Plan, Fault> {
-        Plan::of(path, Document::read(path)?, arguments, preparing)
-    }
-
-    /// Reads an experiment from a document, as if it were the file at `path`.
-    pub(crate) fn of(
-        path: &Path,
-        mut document: Document,
-        arguments: &[String],
-        preparing: &Preparing,
-    ) -> Result<Plan, Fault> {
-        let sweep = swept(&mut document, arguments)?;
-        Planner::new(path, &document, &sweep, preparing).plan()
-    }
-
-    /// The same for the light of one run: its row in the results, from 1, or the last. Nothing else is
-    /// prepared, and nothing that the run is compared with.
-    pub(crate) fn of_row(
-        path: &Path,
-        mut document: Document,
-        arguments: &[String],
-        row: Option<usize>,
-    ) -> Result<(Plan, usize), Fault> {
-        let mut sweep = swept(&mut document, arguments)?;
-        let runs = sweep.points.len();
-        let row = row.unwrap_or(runs);
-        if !(1..=runs).contains(&row) {
-            let message = format!("{row}; expected a row of runs.csv, 1 to {runs}");
-            return Err(Fault::of_file("--run", message));
-        }
-        sweep.points = vec![sweep.points.swap_remove(row - 1)];
-        leave_out_comparisons(&mut sweep.points[0].value);
-        let (threads, memory) = (parallel::host_threads(), half_of_free_memory());
-        let preparing = Preparing { threads, memory, ..Preparing::default() };
-        let plan = Planner::new(path, &document, &sweep, &preparing).plan()?;
-        Ok((plan, row))
-    }
-}
-
-/// Applies `--set` arguments to an experiment and finds its runs.
-fn swept(document: &mut Document, arguments: &[String]) -> Result<Sweep, Fault> {
-    for argument in arguments {
-        if argument.starts_with("machine.") {
-            open_up(&mut document.value);
-        }
-        document.set(argument)?;
-    }
-    let known = refuse_unknown_keys(&FIELDS, &document.value);
-    known.map_err(|fault| document.locate(fault))?;
-    Sweep::of(document)
-}
-
 /// What planning has read so far.
-struct Planner<'a> {
+pub struct Planner<'a> {
     path: &'a Path,
     folder: &'a Path,
     document: &'a Document,
@@ -124,7 +63,7 @@ struct Draft<'a> {
 type Loaded = (Scene, f64);
 
 impl<'a> Planner<'a> {
-    fn new(
+    pub fn new(
         path: &'a Path,
         document: &'a Document,
         sweep: &'a Sweep,
@@ -144,7 +83,7 @@ impl<'a> Planner<'a> {
         }
     }
 
-    fn plan(mut self) -> Result<Plan, Fault> {
+    pub fn plan(mut self) -> Result<Plan, Fault> {
         let name = self.name()?;
         let drafts = self.sweep.points.iter().map(|point| self.draft(point));
         let mut drafts = drafts.collect::<Result<Vec<Draft>, Fault>>()?;
@@ -291,14 +230,15 @@ impl<'a> Planner<'a> {
     /// share a setting.
     fn tune(&self, drafts: &mut [Draft], scenes: &[Loaded]) -> Result<(), Fault> {
         let mut asking: Vec<(Experiment, usize)> = Vec::new();
+        let mut known = BTreeMap::new();
         let mut asker = Vec::new();
         for (number, draft) in drafts.iter().enumerate().filter(|(_, d)| d.typed.accuracy.is_some())
         {
             let alike = Experiment { processors: 1, ..draft.typed.clone() };
-            let text = |experiment: &Experiment| serde_json::to_string(experiment).ok();
-            let known = asking.iter().position(|(other, _)| text(other) == text(&alike));
-            asker.push((number, known.unwrap_or(asking.len())));
-            if known.is_none() {
+            let text = serde_json::to_string(&alike).unwrap_or_default();
+            let asked = *known.entry(text).or_insert(asking.len());
+            asker.push((number, asked));
+            if asked == asking.len() {
                 asking.push((alike, number));
             }
         }
@@ -354,7 +294,8 @@ impl<'a> Planner<'a> {
         std::thread::scope(|scope| {
             // Saved runs are named by a digest of this program, which is computed meanwhile.
             if threads > 1 {
-                scope.spawn(program);
+                // If no thread can be started, it is computed when it is needed.
+                let _ = std::thread::Builder::new().spawn_scoped(scope, program);
             }
             parallel::map(self.scenes.len(), threads, load).into_iter().collect()
         })
@@ -367,13 +308,15 @@ impl<'a> Planner<'a> {
         scenes: &[Loaded],
     ) -> Result<(Vec<Prepared>, Vec<usize>), Fault> {
         let mut wanted: Vec<(Settings, &Draft)> = Vec::new();
+        let mut known = BTreeMap::new();
         let mut problem_of = Vec::new();
         for draft in drafts {
             let settings = Settings::of(&draft.typed, &scenes[draft.scene].0)
                 .map_err(|(field, message)| self.fault(draft.point, field, message))?;
-            let known = wanted.iter().position(|(other, _)| *other == settings);
-            problem_of.push(known.unwrap_or(wanted.len()));
-            if known.is_none() {
+            let text = serde_json::to_string(&settings).unwrap_or_default();
+            let problem = *known.entry(text).or_insert(wanted.len());
+            problem_of.push(problem);
+            if problem == wanted.len() {
                 wanted.push((settings, draft));
             }
         }
