@@ -190,7 +190,7 @@ impl Meshed {
                 partial.received.add(&received);
             }
             let text = serde_json::to_string(&partial).map_err(Exit::failure)?;
-            write(saved, text)?;
+            write(saved, lab::sealed("", &text))?;
         }
         steps.end();
         let solution = paths.solution(&partial.received);
@@ -201,8 +201,8 @@ impl Meshed {
     fn resumed(&self, saved: &Path, subject: Subject) -> Partial {
         let patches = self.patches.count();
         let text = fs::read_to_string(saved).unwrap_or_default();
-        serde_json::from_str(&text)
-            .ok()
+        lab::unsealed("", &text)
+            .and_then(|text| serde_json::from_str(text).ok())
             .filter(|old: &Partial| old.subject == subject && old.received.is_of(patches))
             .unwrap_or_else(|| Partial { subject, received: Received::new(patches) })
     }

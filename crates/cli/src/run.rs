@@ -5,7 +5,10 @@ use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
 use config::{Dimension, parse};
-use lab::{Endings, HostClock, On, Options, Plan, Preparing, Results, ShotFiles, Traces, Viewing};
+use lab::{
+    Claim, Endings, HostClock, On, Options, Plan, Preparing, Results, ShotFiles, Traces, Viewing,
+    check_writable,
+};
 use traces::{Format, Sample};
 
 use crate::exit::{Exit, print};
@@ -105,18 +108,21 @@ enum FormatArgument {
 /// Runs the experiment; returns the table of its results.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let clock = HostClock::start();
-    let network = arguments.network.iter().map(|model| format!("machine.network.model={model}"));
+    let network = network(arguments)?;
     let set: Vec<String> = arguments.set.iter().cloned().chain(network).collect();
     let threads = arguments.threads.count();
     let memory = arguments.memory.unwrap_or_else(lab::half_of_free_memory);
+    let default = || PathBuf::from("results").join(arguments.file.file_stem().unwrap_or_default());
+    let out = arguments.out.clone().unwrap_or_else(default);
+    for folder in [out.join(".partial"), out.clone()] {
+        check_writable(&folder).map_err(Exit::bad_input)?;
+    }
     let pilots = Pilots::new(arguments.quiet);
     let on_pilot = |scene: &str, target, runs| pilots.update(scene, target, runs);
     let preparing = Preparing { threads, memory, finding: true, on_pilot: &on_pilot };
     let plan = Arc::new(Plan::read(&arguments.file, &set, &preparing)?);
     pilots.end();
     arguments.viewer.check(&plan).map_err(Exit::bad_input)?;
-    let default = || PathBuf::from("results").join(&plan.name);
-    let out = arguments.out.clone().unwrap_or_else(default);
     let place = out.display();
     let traces = traces(arguments)?;
     if arguments.live.asked() && arguments.on == OnArgument::Threads {
@@ -124,7 +130,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     }
     let shot_files = arguments.keep_shots.as_deref().map(open_shot_files).transpose()?;
     let live = arguments.live.start(&plan)?;
-    make_folder(&out, "results")?;
+    let claim = Claim::of(&out).map_err(Exit::bad_input)?;
 
     let on = match arguments.on {
         OnArgument::Simulation => On::Simulation,
@@ -146,6 +152,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let results = Results::of(&plan, &endings, &options).map_err(Exit::failure)?;
     lab::write_host_times(&out, &endings, clock.seconds(), threads).map_err(Exit::failure)?;
     results.write(&out).map_err(Exit::failure)?;
+    drop(claim);
     let mut output = output(&plan, &results, &endings);
     if let Some(trouble) = options.shot_files.and_then(|files| files.trouble()) {
         output += &format!("Shots could not be kept in {trouble}.\n");
@@ -167,6 +174,19 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     }
 }
 
+/// The `--set` argument for which `--network` is short, if it is given.
+fn network(arguments: &Arguments) -> Result<Option<String>, Exit> {
+    const FIELD: &str = "machine.network.model";
+    let Some(model) = &arguments.network else { return Ok(None) };
+    let path = |set: &&String| set.split('=').next() == Some(FIELD);
+    match arguments.set.iter().find(path) {
+        Some(set) => Err(Exit::bad_input(format!(
+            "--network {model}: found --set {set} too; expected one of the two"
+        ))),
+        None => Ok(Some(format!("{FIELD}={model}"))),
+    }
+}
+
 fn output(plan: &Plan, results: &Results, endings: &Endings) -> String {
     let networks = lab::networks_text(plan, endings);
     let mut output = format!("{}\n{}\n{networks}", plan.title, results.text());
@@ -185,6 +205,7 @@ fn traces(arguments: &Arguments) -> Result<Option<Traces>, Exit> {
         return Err(Exit::bad_input(needs_simulation("--trace")));
     }
     make_folder(&folder, "traces")?;
+    check_writable(&folder).map_err(Exit::bad_input)?;
     let format = match arguments.trace_format {
         FormatArgument::Perfetto => Format::Perfetto,
         FormatArgument::Paje => Format::Paje,

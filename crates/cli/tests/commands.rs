@@ -163,7 +163,11 @@ fn a_killed_run_goes_on_where_it_was() {
     let project = Project::new(&sweep);
     let arguments = ["run", "experiments/x.json", "--threads", "1"];
     let partial = project.path("results/x/.partial");
-    let saved = || fs::read_dir(&partial).map_or(0, |entries| entries.count());
+    let finished = || -> Vec<PathBuf> {
+        let paths = fs::read_dir(&partial).into_iter().flatten().map(|entry| entry.unwrap().path());
+        paths.filter(|path| path.extension().is_some_and(|ending| ending == "json")).collect()
+    };
+    let saved = || finished().len();
 
     let mut child = virtwall(&project.path(""), &arguments).stdout(Stdio::null()).spawn().unwrap();
     while saved() < 3 && child.try_wait().unwrap().is_none() {
@@ -174,17 +178,17 @@ fn a_killed_run_goes_on_where_it_was() {
     // The sweep was still under way, and no result of it stands there half-written.
     assert!(saved() >= 3, "it ended too soon to be killed");
     assert!(!project.path("results/x/runs.csv").exists());
-    let json = |path: PathBuf| -> serde_json::Value {
-        serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
-    };
-    let finished = fs::read_dir(&partial).unwrap().map(|entry| entry.unwrap().path());
-    let finished = finished.filter(|path| path.extension().is_some_and(|ending| ending == "json"));
-    let took: Vec<_> = finished.map(|path| json(path)[1]["cpu_s"].clone()).collect();
+    let json = |text: &str| -> serde_json::Value { serde_json::from_str(text).unwrap() };
+    let took = finished().into_iter().map(|path| {
+        let (text, key) = (fs::read_to_string(&path).unwrap(), path.file_stem().unwrap());
+        json(lab::unsealed(key.to_str().unwrap(), &text).unwrap())[1]["cpu_s"].clone()
+    });
+    let took: Vec<_> = took.collect();
 
     assert_eq!(output(&project, &arguments).0, 0);
     assert_eq!(output(&project, &["run", "experiments/x.json", "--out", "whole"]).0, 0);
     // Finished runs were not done again: what they took is what they took before.
-    let times = json(project.path("results/x/host-times.json"));
+    let times = json(&fs::read_to_string(project.path("results/x/host-times.json")).unwrap());
     let times = times["runs"]["cpu_s"].as_array().unwrap();
     assert!(took.iter().all(|took| times.contains(took)), "{took:?} {times:?}");
     // The report's viewer shows runs from before and after: those are made again to be recorded.

@@ -128,11 +128,22 @@ fn bad_traces_and_networks_exit_with_2_and_leave_nothing() {
         ),
         (
             &["run", "experiments/x.json", "--network", "pigeon"],
-            "--set machine.network.model=pigeon: machine.network.model: unknown variant `pigeon`",
+            "--set machine.network.model=pigeon: machine.network.model: unknown value \"pigeon\"",
+        ),
+        (
+            &[
+                "run",
+                "experiments/x.json",
+                "--set",
+                "machine.network.model=flit",
+                "--network",
+                "loggp",
+            ],
+            "--network loggp: found --set machine.network.model=flit too; expected one of the two",
         ),
         (
             &["run", "experiments/x.json", "--set", "machine=no-links", "--network", "wormhole"],
-            "--set machine.network.model=wormhole: machine.network: missing field `links`",
+            "--set machine.network.model=wormhole: machine.network: \"links\" is missing; expected it",
         ),
     ] {
         let (code, _, stderr) = virtwall(&project.path(""), arguments);
@@ -289,7 +300,7 @@ fn what_the_display_and_the_start_up_do_stands_in_the_results() {
         assert_eq!(code, 2);
         assert!(stderr.contains(expected), "{stderr}");
     };
-    lacks("machine.display.window=1 B", "machine.display: missing field `service`");
+    lacks("machine.display.window=1 B", "machine.display: \"service\" is missing; expected it");
     lacks("count_start_up=true", "expected a machine whose file has \"start_up\"");
 }
 

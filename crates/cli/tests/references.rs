@@ -107,15 +107,19 @@ fn paths_go_on_where_they_were() {
     let partial = read("p.json.partial").unwrap();
     assert!(partial.contains("\"rounds\":64"), "{partial}");
     fs::remove_dir(folder.path().join("p.json")).unwrap();
+    let partial = lab::unsealed("", &partial).unwrap();
+    let resumed_from = |text: &str| {
+        fs::write(folder.path().join("p.json.partial"), text).unwrap();
+        succeeds(folder.path(), &format!("{paths} 2"));
+        read("p.json").unwrap()
+    };
     // Tampered with, it tells whether it is read again.
     let tampered = partial.replacen("\"sum\":[[", "\"sum\":[[1000", 1);
-    fs::write(folder.path().join("p.json.partial"), tampered).unwrap();
-    succeeds(folder.path(), &format!("{paths} 2"));
-    assert_ne!(read("p.json").unwrap(), whole);
-    // One of another subject is not.
-    fs::write(folder.path().join("p.json.partial"), partial.replace("1996", "7")).unwrap();
-    succeeds(folder.path(), &format!("{paths} 2"));
-    assert_eq!(read("p.json").unwrap(), whole);
+    assert_ne!(resumed_from(&lab::sealed("", &tampered)), whole);
+    // One that is damaged, or of another subject, is not.
+    let sealed = lab::sealed("", partial);
+    assert_eq!(resumed_from(&sealed.replacen("\"sum\":[[", "\"sum\":[[1000", 1)), whole);
+    assert_eq!(resumed_from(&lab::sealed("", &partial.replace("1996", "7"))), whole);
 }
 
 #[test]

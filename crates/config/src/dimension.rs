@@ -38,6 +38,18 @@ use Scale::{Over, Times};
 type Units = &'static [(&'static str, Scale)];
 
 impl Dimension {
+    /// All of them. No unit belongs to two.
+    pub const ALL: [Dimension; 8] = [
+        Dimension::Time,
+        Dimension::Frequency,
+        Dimension::Bandwidth,
+        Dimension::Bytes,
+        Dimension::Fraction,
+        Dimension::Length,
+        Dimension::PerLength,
+        Dimension::Cycles,
+    ];
+
     /// The word for it and an example, as in "expected a frequency such as \"50 MHz\"".
     const fn word_and_example(self) -> (&'static str, &'static str) {
         match self {
@@ -92,7 +104,11 @@ impl Dimension {
                 ("KB/s", Times(1e3)),
                 ("MB/s", Times(1e6)),
                 ("GB/s", Times(1e9)),
+                ("TB/s", Times(1e12)),
+                ("kbit/s", Times(125.0)),
                 ("Mbit/s", Times(125_000.0)),
+                ("Gbit/s", Times(125e6)),
+                ("Tbit/s", Times(125e9)),
             ],
             Dimension::Bytes => &[
                 ("B", Times(1.0)),
@@ -100,9 +116,11 @@ impl Dimension {
                 ("KB", Times(1e3)),
                 ("MB", Times(1e6)),
                 ("GB", Times(1e9)),
+                ("TB", Times(1e12)),
                 ("KiB", Times(1_024.0)),
                 ("MiB", Times(1_048_576.0)),
                 ("GiB", Times(1_073_741_824.0)),
+                ("TiB", Times(1_099_511_627_776.0)),
             ],
             Dimension::Fraction => &[("%", Over(100.0))],
             Dimension::Length => &[("m", Times(1.0)), ("cm", Over(100.0)), ("mm", Over(1e3))],
@@ -191,6 +209,12 @@ mod tests {
             ("2.5E-1 ms", Time, 0.25e-3),
             ("72 MB/s", Bandwidth, 72e6),
             ("10 Mbit/s", Bandwidth, 1.25e6),
+            ("100 Gbit/s", Bandwidth, 12.5e9),
+            ("1.6 Tbit/s", Bandwidth, 200e9),
+            ("56 kbit/s", Bandwidth, 7e3),
+            ("3.35 TB/s", Bandwidth, 3.35e12),
+            ("2 TB", Bytes, 2e12),
+            ("1 TiB", Bytes, 1_099_511_627_776.0),
             ("4 KB", Bytes, 4_000.0),
             ("4 KiB", Bytes, 4_096.0),
             ("16 MB", Bytes, 16e6),
@@ -207,8 +231,11 @@ mod tests {
 
     #[test]
     fn every_example_is_one() {
-        for dimension in [Time, Frequency, Bandwidth, Bytes, Fraction, Length, Cycles] {
-            assert!(parse(dimension.example(), dimension).is_ok(), "{dimension}");
+        for dimension in Dimension::ALL {
+            for other in Dimension::ALL {
+                let read = parse(dimension.example(), other);
+                assert_eq!(read.is_ok(), dimension == other, "{dimension}");
+            }
         }
     }
 

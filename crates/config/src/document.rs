@@ -41,7 +41,8 @@ impl Document {
         Ok(Document { file, value, text, arguments: Vec::new() })
     }
 
-    /// Lays `path=value` over the file: `path` is dotted keys, `value` JSON or bare text.
+    /// Lays `path=value` over the file: `path` is dotted keys, `value` JSON or bare text. A path that leads into a
+    /// list is followed in each of its items.
     ///
     /// # Errors
     /// If there is no `=`, or the path leads through a value that is not an object.
@@ -52,17 +53,10 @@ impl Document {
             return refuse("expected path=value, such as hemisphere.pixels=4096");
         };
         let value = json::parse(text).unwrap_or_else(|_| Value::String(text.to_owned()));
-        let mut target = &mut self.value;
-        for key in path.split('.') {
-            if target.is_null() {
-                *target = Value::Object(Map::new());
-            }
-            let Value::Object(object) = target else {
-                return refuse("the path leads into a value that has no fields");
-            };
-            target = object.entry(key).or_insert(Value::Null);
+        let keys: Vec<&str> = path.split('.').collect();
+        if !put(&mut self.value, &keys, &value) {
+            return refuse("the path leads into a value that has no fields");
         }
-        *target = value;
         self.arguments.push((Place::of(path), argument.to_owned()));
         Ok(())
     }
@@ -93,6 +87,24 @@ impl Document {
     /// The same fault of a value of this document, with file and line.
     pub fn locate(&self, fault: Fault) -> Fault {
         self.fault(&fault.place, fault.message)
+    }
+}
+
+/// Puts a value where keys lead, in each item of a list; false if they lead into a value without fields.
+fn put(target: &mut Value, keys: &[&str], value: &Value) -> bool {
+    let Some((key, rest)) = keys.split_first() else {
+        *target = value.clone();
+        return true;
+    };
+    if target.is_null() {
+        *target = Value::Object(Map::new());
+    }
+    match target {
+        Value::Object(fields) => put(fields.entry(*key).or_insert(Value::Null), rest, value),
+        Value::Array(items) if !items.is_empty() => {
+            items.iter_mut().all(|item| put(item, keys, value))
+        }
+        _ => false,
     }
 }
 
@@ -129,5 +141,10 @@ mod tests {
         let fault = document.fault(&Place::of("a"), "wrong");
         assert_eq!(fault.to_string(), "--set a.b=soon: a: wrong");
         assert!(document.set("a.b.c=1").is_err() && document.set("=1").is_err());
+        document.set("a=[{\"b\": 1}, {}, null]").unwrap();
+        document.set("a.b=2").unwrap();
+        assert_eq!(document.value, json!({ "a": [{ "b": 2 }, { "b": 2 }, { "b": 2 }] }));
+        document.set("a=[1, {}]").unwrap();
+        assert!(document.set("a.b=2").is_err());
     }
 }

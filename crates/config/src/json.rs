@@ -22,17 +22,22 @@ pub fn parse(text: &str) -> Result<Value, Fault> {
         let (line, column) = (Some(error.line()), Some(error.column()));
         Fault { line, column, ..Fault::at(place, message) }
     };
-    let mut json = serde_json::Deserializer::from_str(text);
+    let mut json = serde_json::Deserializer::from_str(without_mark(text));
     let Strict(value) = serde_path_to_error::deserialize(&mut json)
         .map_err(|error| fault(Place::from(error.path()), error.inner()))?;
     json.end().map_err(|error| fault(Place::default(), &error))?;
     Ok(value)
 }
 
+/// A text without the byte order mark with which some editors begin files.
+pub fn without_mark(text: &str) -> &str {
+    text.strip_prefix('\u{feff}').unwrap_or(text)
+}
+
 /// The line, from 1, on which the value at `place` begins, or else the innermost value around it that
 /// is there; none if that is the whole text.
 pub fn line_of(text: &str, place: &Place) -> Option<usize> {
-    let mut raw: &RawValue = serde_json::from_str(text).ok()?;
+    let mut raw: &RawValue = serde_json::from_str(without_mark(text)).ok()?;
     let whole = raw.get();
     for step in &place.0 {
         let inner = match step {
@@ -152,6 +157,14 @@ mod tests {
         assert_eq!(line_of(text, &Place::default()), None);
         assert_eq!(line_of(text, &Place::of("nothing")), None);
         assert_eq!(line_of("{", &Place::default()), None);
+    }
+
+    #[test]
+    fn a_byte_order_mark_is_skipped() {
+        let text = "\u{feff}{\n \"a\": 1}";
+        assert_eq!(parse(text).unwrap(), parse("{\"a\": 1}").unwrap());
+        assert_eq!(line_of(text, &Place::of("a")), Some(2));
+        assert!(parse("\u{feff}\u{feff}1").is_err());
     }
 
     #[test]

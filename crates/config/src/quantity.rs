@@ -105,6 +105,12 @@ impl<M: Measure> Visitor<'_> for QuantityVisitor<M> {
     }
 }
 
+impl<M> fmt::Display for Quantity<M> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
 impl<M> Serialize for Quantity<M> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(&self.text)

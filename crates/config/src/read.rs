@@ -48,21 +48,46 @@ fn unknown_key(schema: &Value, value: &Value, place: &Place) -> Option<Fault> {
     }
 }
 
-/// serde's message, with plain words in place of the names of Rust types.
+/// serde's message in the words of the other messages.
 fn in_plain_words(message: &str) -> String {
-    let Some((head, expected)) = message.rsplit_once("expected ") else {
-        return message.to_owned();
+    let (kind, rest) = message.split_once('`').unwrap_or((message, ""));
+    let (name, rest) = rest.split_once('`').unwrap_or((rest, ""));
+    let names = || rest.split('`').skip(1).step_by(2).map(str::to_owned).collect::<Vec<_>>();
+    match kind {
+        "unknown variant " => unknown("value", name, &names()),
+        "unknown field " => unknown("field", name, &names()),
+        "missing field " => format!("\"{name}\" is missing; expected it"),
+        _ => found_and_expected(message).unwrap_or_else(|| message.to_owned()),
+    }
+}
+
+/// "invalid type: string \"many\", expected u32" in plain words; none for another message.
+fn found_and_expected(message: &str) -> Option<String> {
+    let (kind, rest) = message.strip_prefix("invalid ")?.split_once(' ')?;
+    let (found, expected) = rest.rsplit_once(", expected ")?;
+    let found = match found.split_once(' ').unwrap_or((found, "")) {
+        _ if kind == "length" => format!("{found} values"),
+        ("string", text) => text.to_owned(),
+        ("sequence", "") => "a list".to_owned(),
+        ("map", "") => "an object".to_owned(),
+        ("unit", _) | ("null", "") => "null".to_owned(),
+        (_, number) if number.starts_with('`') => number.trim_matches('`').to_owned(),
+        (_, number) => number.strip_prefix("point `").unwrap_or(found).trim_matches('`').to_owned(),
     };
     let expected = match expected {
         "u8" | "u16" | "u32" | "u64" | "usize" => "a whole number, 0 or more",
         "a nonzero u8" => "a whole number, 1 to 255",
         "a nonzero u16" => "a whole number, 1 to 65535",
+        "a nonzero u32" => "a whole number, 1 to 4294967295",
         "f64" => "a number",
+        "a boolean" => "true or false",
+        "string or map" => "a string or an object",
+        "a map" => "an object",
         _ if expected.starts_with("struct ") => "an object",
         "a sequence" => "a list",
-        other => other,
+        other => &other.replace("an array of length ", "a list of "),
     };
-    format!("{head}expected {expected}")
+    Some(format!("found {found}; expected {expected}"))
 }
 
 #[cfg(test)]
@@ -91,6 +116,13 @@ mod tests {
         count: u32,
     }
 
+    #[derive(Debug, Deserialize)]
+    #[serde(rename_all = "snake_case")]
+    enum Colour {
+        Red,
+        Green,
+    }
+
     #[test]
     fn unknown_keys_are_found_at_any_depth() {
         for (value, place) in [
@@ -115,8 +147,26 @@ mod tests {
     #[test]
     fn values_of_a_wrong_type_are_refused_in_plain_words() {
         let fault = read::<File>(&json!({ "list": [{ "count": -1 }] })).unwrap_err();
-        let message = "invalid value: integer `-1`, expected a whole number, 0 or more";
+        let message = "found -1; expected a whole number, 0 or more";
         assert_eq!(fault.to_string(), format!("list[0].count: {message}"));
+        for (value, message) in [
+            (json!({}), "\"count\" is missing; expected it"),
+            (json!({ "count": "many" }), "found \"many\"; expected a whole number, 0 or more"),
+            (json!({ "count": 0.5 }), "found 0.5; expected a whole number, 0 or more"),
+            (json!({ "count": true }), "found true; expected a whole number, 0 or more"),
+            (json!({ "count": null }), "found null; expected a whole number, 0 or more"),
+            (json!({ "count": [] }), "found a list; expected a whole number, 0 or more"),
+            (json!({ "count": {} }), "found an object; expected a whole number, 0 or more"),
+            (json!("x"), "found \"x\"; expected an object"),
+        ] {
+            assert_eq!(read::<Inner>(&value).unwrap_err().message, message);
+        }
+        let colour = |value| read::<Colour>(&value).unwrap_err().message;
+        let message = "unknown value \"rde\", did you mean \"red\"? (there are: red, green)";
+        assert_eq!(colour(json!("rde")), message);
+        assert_eq!(colour(json!(5)), "found 5; expected a string or an object");
+        let corner = read::<[f64; 3]>(&json!([1, 2])).unwrap_err().message;
+        assert_eq!(corner, "found 2 values; expected a list of 3");
         let message = refuse_unknown_keys(&schema::of::<File>(), &json!([])).unwrap_err().message;
         assert_eq!(message, "found a list; expected an object");
     }

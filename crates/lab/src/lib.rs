@@ -18,7 +18,8 @@ mod table; // the table of results: its columns, and what is read from it
 pub use engine::simulator::{Light, On};
 pub use experiment::fields::Plot;
 pub use experiment::schema::experiment_schema;
-pub use files::file::write as write_file;
+pub use files::digest::{sealed, unsealed};
+pub use files::file::{check_writable, write as write_file};
 pub use host::host_clock::HostClock;
 pub use host::host_memory::half_of_free_memory;
 pub use inspect::check::check;
@@ -33,6 +34,7 @@ pub use planning::preparing::Preparing;
 pub use results::folder::{Results, write_host_times};
 pub use results::live_page::live_page;
 pub use results::networks::text as networks_text;
+pub use run::claim::Claim;
 pub use run::feed::{Feed, News};
 pub use run::progress::Counters;
 pub use run::runner::{Endings, Event, Options, Watch, carry_out};

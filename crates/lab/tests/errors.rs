@@ -103,6 +103,14 @@ fn references_that_do_not_fit_are_refused() {
         (project(|reference| reference.subject.patches_sha256 = "00".to_owned()), patches),
         (project(|reference| _ = reference.radiosity.pop()), patches),
         (project(|reference| reference.subject.cells = [0, 1, 1]), "no sizes of patches and cells"),
+        // A mesh that no memory holds is refused before it is made.
+        (project(|reference| reference.subject.patch_size_m = 1e-6), "the radiosities in it"),
+        (project(|reference| reference.subject.emitter_patch_size_m = 1e-9), "make some"),
+        (
+            project(|reference| reference.subject.cells = [16_384, 16_384, 1]),
+            "cells; expected at most",
+        ),
+        (project(|reference| reference.subject.cells = [u32::MAX; 3]), "cells; expected at most"),
         (unreadable, "expected what `reference` has stored"),
         (missing, "reference: unknown reference \"box\""),
     ] {

@@ -77,6 +77,25 @@ fn damage_is_never_a_wrong_result() {
     }
 }
 
+/// Records whose checksums are right are not believed if they are of another scene, or no whole shots.
+#[test]
+fn forged_records_are_never_a_wrong_result() {
+    let project = Project::new(&SWEEP.replace("[64, 256]", "64"));
+    let (results, cold) = swept(&project, 1 << 30);
+    let path = files(&project).remove(0);
+    let whole = fs::read(&path).unwrap();
+    let scene = fs::read_to_string(project.path("scenes/box.mtl")).unwrap();
+    project.write("scenes/box.mtl", &scene.replace("0.5", "0.4"));
+    let (other, _) = swept(&project, 1 << 30);
+    let at = whole.iter().position(|&byte| byte == b'\n').unwrap();
+    let theirs = files(&project).into_iter().find(|other| *other != path).unwrap();
+    let header = fs::read(&theirs).unwrap()[..at].to_vec();
+    fs::write(&theirs, [&header, &whole[at..]].concat()).unwrap();
+    let (again, warm) = swept(&project, 1 << 30);
+    assert!(again.table == other.table && again.table != results.table);
+    assert_eq!(warm.shots.cast, cold.shots.cast);
+}
+
 /// A folder that can no longer be written to costs the kept shots, not the results.
 #[test]
 fn a_folder_that_has_gone_is_told() {

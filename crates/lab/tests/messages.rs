@@ -32,7 +32,10 @@ fn experiments_are_refused_with_place_value_and_expectation() {
             "{\n\"title\": \"t\",\n\"title\": \"u\"}",
             "experiments/x.json:3:7: found the key \"title\" twice; expected it once",
         ),
-        (r#"{"title": "t", "processors": 1}"#, "experiments/x.json: missing field `scene`"),
+        (
+            r#"{"title": "t", "processors": 1}"#,
+            "experiments/x.json: \"scene\" is missing; expected it",
+        ),
         (
             &format!("{{{good},\n\"processor\": 2}}"),
             "experiments/x.json:2: processor: unknown field \"processor\", did you mean \
@@ -45,12 +48,12 @@ fn experiments_are_refused_with_place_value_and_expectation() {
         (
             &format!("{{{good}, \"stop\": {{\"every\": 1}}}}"),
             "experiments/x.json:1: stop.every: unknown field \"every\" (there are: \
-             patch_threshold, energy_threshold, collect_every)",
+             patch_threshold, energy_threshold, collect_every, shots_without_progress)",
         ),
         (
             &format!("{{{good},\n \"hemisphere\": {{\"pixels\":\n \"many\"}}}}"),
-            "experiments/x.json:3: hemisphere.pixels: invalid type: string \"many\", expected a \
-             whole number, 0 or more",
+            "experiments/x.json:3: hemisphere.pixels: found \"many\"; expected a whole \
+             number, 0 or more",
         ),
         (
             &format!("{{{good},\n \"hemisphere\": {{\"pixels\": [64,\n 0]}}}}"),
@@ -59,14 +62,14 @@ fn experiments_are_refused_with_place_value_and_expectation() {
         ),
         (
             &format!("{{{good}, \"selection\": \"best\"}}"),
-            "experiments/x.json:1: selection: unknown variant `best`, expected `energy` or \
-             `delta_radiosity`",
+            "experiments/x.json:1: selection: unknown value \"best\" (there are: energy, \
+             delta_radiosity)",
         ),
         (
             &format!(
                 "{{{good},\n \"machine\": {{\"node_memory\": {{\"installed\": \"8 MiB\"}}}}}}"
             ),
-            "experiments/x.json:2: machine.node_memory: missing field `system`",
+            "experiments/x.json:2: machine.node_memory: \"system\" is missing; expected it",
         ),
         (
             &format!(
@@ -122,6 +125,18 @@ fn experiments_are_refused_with_place_value_and_expectation() {
             &format!("{{{good}, \"stop\": {{\"patch_threshold\": \"110 %\"}}}}"),
             "experiments/x.json:1: stop.patch_threshold: found \"110 %\"; expected a fraction \
              from 0 % to 100 %",
+        ),
+        (
+            &format!("{{{good},\n \"stop\": {{\"patch_threshold\": [\"1 %\",\n \"0 %\"]}}}}"),
+            "experiments/x.json:3: stop.patch_threshold[1]: 0 %, and \"energy_threshold\" 0 %: the run \
+             would not end; expected 1e-28 % or more for one of the two",
+        ),
+        (
+            &format!(
+                "{{{good}, \"stop\": {{\"patch_threshold\": \"0 %\", \"energy_threshold\": \"1e-320 %\"}}}}"
+            ),
+            "experiments/x.json:1: stop.patch_threshold: 0 %, and \"energy_threshold\" 1e-320 %: the \
+             run would not end; expected 1e-28 % or more for one of the two",
         ),
         (
             &format!("{{{good}, \"stop\": {{\"collect_every\": \"0 s\"}}}}"),
@@ -201,12 +216,12 @@ fn experiments_are_refused_with_place_value_and_expectation() {
         ),
         (
             &format!("{{{good}, \"title\": [\"a\", \"b\"]}}").replacen("\"title\": \"t\", ", "", 1),
-            "experiments/x.json:1: title: invalid type: sequence, expected a string",
+            "experiments/x.json:1: title: found a list; expected a string",
         ),
         (
             &format!("{{{good}, \"interfaces\": \"walls\"}}"),
-            "experiments/x.json:1: interfaces: unknown variant `walls`, expected `masks` or \
-             `virtual_walls`",
+            "experiments/x.json:1: interfaces: unknown value \"walls\" (there are: masks, \
+             virtual_walls)",
         ),
         (
             &format!("{{{walled} {{\"patches\": \"4x4x4\"}}}}"),
@@ -228,8 +243,8 @@ fn experiments_are_refused_with_place_value_and_expectation() {
         ),
         (
             &format!("{{{walled} {{\"threshold\": \"0 %\"}}}}"),
-            "experiments/x.json:1: virtual_walls.threshold: 0 %; expected more: virtual walls hand on \
-             ever less, for ever",
+            "experiments/x.json:1: virtual_walls.threshold: 0 %; expected 1e-28 % or more: virtual \
+             walls hand on ever less, for ever",
         ),
         (
             &format!("{{{good}, \"mask_bits\": 12}}"),
@@ -261,6 +276,11 @@ fn arguments_are_named_where_they_are_at_fault() {
              a fraction such as \"10 %\"",
         ),
         ("stop.patch_threshold=5 %", "nothing wrong"),
+        (
+            "stop.patch_threshold=0 %",
+            "--set stop.patch_threshold=0 %: stop.patch_threshold: 0 %, and \"energy_threshold\" 0 %: the \
+             run would not end; expected 1e-28 % or more for one of the two",
+        ),
         ("mapping=[\"blocks\",\"cyclic\"]", "nothing wrong"),
     ] {
         assert_eq!(message(&project, &[argument]), expected, "{argument}");
@@ -310,6 +330,34 @@ fn caches_that_would_fill_the_host_are_refused() {
         };
         assert_eq!(message(&project, &[]), expected);
     }
+}
+
+/// An argument inside the machine changes each machine of a sweep, which still is the column "machine".
+#[test]
+fn arguments_change_every_machine_of_a_sweep() {
+    let project = Project::new(
+        r#"{"title": "t", "scene": "box", "processors": 1, "local_environments": 4,
+            "machine": ["paragon-xps", "slow"],
+            "plots": [{"x": "machine", "y": "time_s", "series": "machine"}]}"#,
+    );
+    project.write("machines/slow.json", r#"{"extends": "paragon-xps", "title": "slow"}"#);
+    let arguments = ["machine.network.model=flit", "machine.compute_nodes=48"].map(str::to_owned);
+    let path = project.path("experiments/x.json");
+    let plan = Plan::read(&path, &arguments, &Preparing::default()).unwrap();
+    assert_eq!(
+        plan.label(&plan.runs[1]),
+        "box, 1 processor, machine slow, network.model flit, compute_nodes 48"
+    );
+    let list = ["machine.network.model=[\"loggp\",\"flit\"]"];
+    let message = message(&project, &list);
+    assert!(message.contains("plots[0].x: unknown column \"machine\""), "{message}");
+    project.write(
+        "experiments/x.json",
+        r#"{"title": "t", "scene": "box", "processors": 1,
+        "local_environments": 4, "machine": ["paragon-xps", "slow"]}"#,
+    );
+    let plan = Plan::read(&path, &list.map(str::to_owned), &Preparing::default()).unwrap();
+    assert_eq!(plan.runs.len(), 4);
 }
 
 #[test]
@@ -388,6 +436,16 @@ fn files_that_an_experiment_names_are_refused_at_their_own_places() {
         project.write(file, text);
         assert_eq!(message(&project, &[]), expected, "{text}");
     }
+}
+
+#[test]
+fn files_may_begin_with_a_byte_order_mark() {
+    let project = Project::new(&format!("\u{feff}{}", common::SWEEP));
+    for name in ["scenes/box.json", "machines/paragon-xps.json"] {
+        let text = fs::read_to_string(project.path(name)).unwrap();
+        project.write(name, &format!("\u{feff}{text}"));
+    }
+    assert_eq!(message(&project, &[]), "nothing wrong");
 }
 
 #[test]

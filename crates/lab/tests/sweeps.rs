@@ -134,15 +134,21 @@ fn a_sweep_goes_on_where_it_was() {
     assert_eq!(resumed.table, whole.table);
     assert_eq!(resumed.manifest, whole.manifest);
 
-    // What is saved is what is taken: a figure changed in a file comes out in its row.
+    // A figure that was changed in a file is not taken, nor are those of another run.
     let text = fs::read_to_string(&files[2]).unwrap();
     let (before, after) = text.split_once("\"local_shots\":").unwrap();
     let after = after.split_once(',').unwrap().1;
     fs::write(&files[2], format!("{before}\"local_shots\":987654,{after}")).unwrap();
-    let (changed, found, _) = carried_out(&plan, &out, &options(1));
-    assert_eq!(found, 6);
-    let rows = &changed.table.rows;
-    assert_eq!(rows.iter().filter(|r| changed.table.cell(r, "local_shots") == "987654").count(), 1);
+    fs::copy(&files[3], &files[4]).unwrap();
+    let (again, found, done) = carried_out(&plan, &out, &options(1));
+    assert_eq!((found, done), (4, 2));
+    assert_eq!(again.table, whole.table);
+
+    // What others put into the folder is not deleted with the saved runs.
+    let foreign = out.join(".partial/notes.json");
+    fs::write(&foreign, "mine").unwrap();
+    whole.write(&out).unwrap();
+    assert_eq!(saved(&out), [foreign]);
 
     let fresh = Options { fresh: true, ..options(1) };
     assert_eq!(carried_out(&plan, &out, &fresh).1, 0);

@@ -4,10 +4,11 @@
 
 mod common;
 
+use std::fs;
 use std::sync::Arc;
 
 use common::{Project, options};
-use lab::{Options, Plan, Preparing, Results, carry_out};
+use lab::{Options, Plan, Preparing, Results, Stage, Which, carry_out};
 
 fn experiment(more: &str) -> String {
     format!(
@@ -53,6 +54,38 @@ fn the_error_stays_below_what_was_asked_for() {
         ["time_s", "predicted_time_s"].map(|column| results.table.number(one, column).unwrap());
     assert!((time / predicted - 1.0).abs() < 0.01, "{time} {predicted}");
     assert_eq!(run(2).table, results.table);
+}
+
+/// The manifest is an experiment, also of settings that were found; each run can be drawn from it.
+#[test]
+fn results_with_an_accuracy_are_read_back() {
+    let project = Project::new(
+        r#"{ "title": "t", "scene": ["box", "fine"], "processors": 1, "local_environments": 4,
+            "hemisphere": { "rotated": true }, "reference": "dense",
+            "accuracy": { "relative_l2": [0.2, 0.1], "sweep": "../sweep.csv" } }"#,
+    );
+    project.write("sweep.csv", "scene,time_s,error_l2\nbox,0.5,0.09\n");
+    let scene = fs::read_to_string(project.path("scenes/box.json")).unwrap();
+    project.write("scenes/fine.json", &scene.replace("1 m", "0.7 m"));
+    let preparing = Preparing { threads: 2, ..Preparing::default() };
+    let read = || Plan::read(&project.path("experiments/x.json"), &[], &preparing);
+    let plan = read().unwrap();
+    let out = project.path("out");
+    let options = Options { memory: 1 << 28, ..options(2) };
+    let endings = carry_out(&plan, &out, &options, Arc::new(|_| {})).unwrap();
+    let results = Results::of(&plan, &endings, &options).unwrap();
+    results.write(&out).unwrap();
+    assert!(fs::read_to_string(out.join("report.html")).unwrap().contains(">found</td>"));
+    for row in 1..=4 {
+        let stage =
+            Stage::open(out.to_str().unwrap(), &Which { set: &[], row: Some(row) }).unwrap();
+        assert!(stage.run.as_ref().unwrap().changed.is_empty());
+        let end = stage.light_at(&[]).unwrap().1.as_seconds_f64();
+        let time = results.table.number(&results.table.rows[row - 1], "time_s").unwrap();
+        assert!((end - time).abs() < 1e-6, "{row}: {end} {time}");
+    }
+    project.write("experiments/x.json", &results.manifest["experiment"].to_string());
+    assert_eq!(read().unwrap().settings_found(), plan.settings_found());
 }
 
 #[test]

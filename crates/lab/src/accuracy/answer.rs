@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock};
 
-use config::Fault;
-use radiosity::{LocalEnvironment, PatchSize, Rgb, Space};
+use config::{Document, Fault, read, read_text};
+use radiosity::glam::DVec3;
+use radiosity::{LocalEnvironment, PatchSize, Polygon, Rgb, Space};
 use reference::{Dense, Patches, Reference};
 use virtwall::Problem;
 
 use crate::files::digest::FileDigest;
-use crate::files::file;
 use crate::files::find::Found;
 use crate::host::held::held;
 
@@ -21,6 +21,12 @@ pub const STORED: &str = "stored";
 
 /// Most patches of a dense solution: more take too long and too much memory.
 pub const MOST_DENSE: usize = 4_000;
+
+/// Most cells of a stored reference.
+const MOST_CELLS: f64 = 4_194_304.0;
+
+/// Patches that any host can make.
+const SAFE_PATCHES: usize = 1_000_000;
 
 /// Largest sum of the errors of a patch's form factors in a dense solution.
 const TOLERANCE: f64 = 1e-4;
@@ -45,21 +51,31 @@ impl Stored {
     /// # Errors
     /// If it is no reference, or one of another scene.
     pub fn read(found: &Found, scene: &radiosity::Scene) -> Result<Stored, Fault> {
-        let bytes = file::read(&found.path)?;
+        let text = read_text(&found.path)?;
+        let digest = FileDigest::of(text.as_bytes(), &found.label);
+        let document = Document::parse(found.path.display(), text)?;
         let refuse = |message: String| Err(Fault::of_file(found.path.display(), message));
-        let stored: Reference = match serde_json::from_slice(&bytes) {
-            Ok(stored) => stored,
-            Err(error) => return refuse(format!("{error}; expected what `reference` has stored")),
-        };
+        let stored: Reference = read(&document.value).map_err(|wrong| {
+            let message = format!("{}; expected what `reference` has stored", wrong.message);
+            document.fault(&wrong.place, message)
+        })?;
         let subject = &stored.subject;
         let [reflector, emitter] = [subject.patch_size_m, subject.emitter_patch_size_m];
-        let sound = [reflector, emitter].iter().all(|size| *size > 0.0 && size.is_finite());
-        let cells: u64 = subject.cells.iter().map(|&n| u64::from(n)).product();
-        if !sound || !(1..=1 << 28).contains(&cells) {
+        let size = PatchSize { reflector, emitter };
+        let cells: f64 = subject.cells.iter().map(|&n| f64::from(n)).product();
+        if ![reflector, emitter].iter().all(|size| *size > 0.0 && size.is_finite()) || cells == 0.0
+        {
             return refuse("no sizes of patches and cells; expected them".to_owned());
         }
+        if cells > MOST_CELLS {
+            return refuse(format!("{cells} cells; expected at most {MOST_CELLS}"));
+        }
+        let (patches, radiosities) = (some_patches(scene, size), stored.radiosity.len());
+        if patches > (SAFE_PATCHES + 100 * radiosities) as f64 {
+            let message = format!("{reflector} m and {emitter} m make some {patches:.0} patches");
+            return refuse(format!("{message}; expected {radiosities}, the radiosities in it"));
+        }
         let space = Space::new(scene.clone(), subject.cells);
-        let size = PatchSize { reflector, emitter };
         let environment = LocalEnvironment::new(&space, space.grid.whole(), size);
         let patches = Patches::new(&space, &environment);
         if patches.digest() != subject.patches_sha256 || patches.count() != stored.radiosity.len() {
@@ -69,8 +85,21 @@ impl Stored {
         }
         let radiosity = stored.radiosity.iter().map(|&colours| Rgb::from(colours)).collect();
         let answer = Arc::new(Answer { patches, radiosity, error: stored.relative_l2_error });
-        Ok(Stored { answer, digest: FileDigest::of(&bytes, &found.label) })
+        Ok(Stored { answer, digest })
     }
+}
+
+/// A low estimate of the number of patches: each has edges up to their size, and backs have none.
+fn some_patches(scene: &radiosity::Scene, size: PatchSize) -> f64 {
+    let of_polygon = |polygon: &Polygon| {
+        let emits = scene.material(polygon).emission != Rgb::ZERO;
+        let size = if emits { size.emitter } else { size.reflector };
+        let corners: Vec<DVec3> = scene.corners(polygon).collect();
+        let next = corners.iter().cycle().skip(1);
+        let edges = corners.iter().zip(next).map(|(corner, next)| corner.distance(*next));
+        (polygon.area / (size * size)).max(edges.fold(0.0, f64::max) / size)
+    };
+    scene.polygons.iter().map(of_polygon).sum()
 }
 
 /// Dense solutions, each found once.

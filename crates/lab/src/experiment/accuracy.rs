@@ -20,7 +20,7 @@ pub struct AccuracyFields {
 }
 
 /// The fields that it replaces.
-const REPLACED: [&str; 6] = [
+pub const REPLACED: [&str; 6] = [
     "hemisphere.directions",
     "hemisphere.pixels",
     "source_split",
@@ -36,12 +36,25 @@ impl AccuracyFields {
         if !(1e-4..=1.0).contains(&error) {
             return Err(("accuracy.relative_l2", format!("{error}; expected from 0.0001 to 1")));
         }
-        let set = |field: &&str| {
-            let pointer = format!("/{}", field.replace('.', "/"));
-            experiment.pointer(&pointer).is_some()
-        };
+        let set = |field: &&str| experiment.pointer(&pointer(field)).is_some();
         let message = "is set together with \"accuracy\", which finds it; expected one of the two";
         let replaced = REPLACED.into_iter().find(set);
         replaced.map_or(Ok(()), |field| Err((field, message.to_owned())))
     }
+}
+
+/// Takes the fields that an accuracy replaces out of an experiment that asks for one.
+pub fn without_replaced(experiment: &mut Value) {
+    if experiment["accuracy"].is_null() {
+        return;
+    }
+    for field in REPLACED {
+        let (around, name) = field.rsplit_once('.').unwrap_or(("", field));
+        let around = experiment.pointer_mut(&pointer(around)).and_then(Value::as_object_mut);
+        around.and_then(|fields| fields.shift_remove(name));
+    }
+}
+
+fn pointer(field: &str) -> String {
+    field.split('.').filter(|key| !key.is_empty()).map(|key| format!("/{key}")).collect()
 }

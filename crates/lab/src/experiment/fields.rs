@@ -13,11 +13,21 @@ use crate::experiment::interfaces::{Interfaces, VirtualWalls};
 use crate::experiment::machine::MachineChoice;
 use crate::experiment::refine::RefineFields;
 use crate::experiment::source_split::SplitFields;
+use crate::files::WrongField;
 use crate::files::counts::Triple;
 use crate::files::quantity::{Fraction, Length, Period};
 
 /// Fields of an experiment file in which a list does not make a sweep.
 pub const UNSWEPT: [&str; 4] = ["$schema", "title", "compare_with", "plots"];
+
+/// Takes out of a point what its results are compared with, and plots: its light needs none of it.
+pub fn leave_out_comparisons(point: &mut Value) {
+    let Some(fields) = point.as_object_mut() else { return };
+    for field in ["compare_with", "reference", "error_causes", "plots"] {
+        fields.shift_remove(field);
+    }
+    fields.get_mut("accuracy").and_then(|of| of.as_object_mut()?.shift_remove("sweep"));
+}
 
 /// An experiment: the runs of a scene on a machine, and what to draw of them.
 ///
@@ -189,6 +199,25 @@ pub struct Stop {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1))]
     pub shots_without_progress: Option<std::num::NonZeroU32>,
+}
+
+/// Least threshold that a run reaches for certain, as a share: light fades far below it, down to the smallest
+/// numbers there are, which reflection no longer makes smaller.
+pub const LEAST_THRESHOLD: f64 = 1e-30;
+
+impl Stop {
+    /// Refuses thresholds under which a run would not end.
+    pub fn check(&self) -> Result<(), WrongField> {
+        let Stop { patch_threshold, energy_threshold, .. } = self;
+        if patch_threshold.value().max(energy_threshold.value()) >= LEAST_THRESHOLD {
+            return Ok(());
+        }
+        let message = format!(
+            "{patch_threshold}, and \"energy_threshold\" {energy_threshold}: the run would not end; expected \
+             1e-28 % or more for one of the two"
+        );
+        Err(("stop.patch_threshold", message))
+    }
 }
 
 impl Default for Stop {

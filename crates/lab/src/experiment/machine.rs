@@ -64,13 +64,19 @@ fn step_key(step: &Step) -> &str {
 }
 
 /// Makes room for arguments such as `--set machine.network.model=flit` in an experiment that names its
-/// machine: the name moves to "extends".
-pub fn open_up(experiment: &mut Value) {
-    if let Some(machine) = experiment.get_mut("machine") {
-        let names = |value: &Value| value.is_string();
-        if names(machine) || machine.as_array().is_some_and(|list| list.iter().all(names)) {
-            *machine = json!({ "extends": machine.take() });
-        }
+/// machine, or several: each name moves to an "extends". If the argument is a list, all names do together.
+pub fn open_up(experiment: &mut Value, by_list: bool) {
+    match experiment.get_mut("machine") {
+        Some(Value::Array(machines)) if !by_list => machines.iter_mut().for_each(extend),
+        Some(Value::Array(machines)) if !machines.iter().all(Value::is_string) => {}
+        Some(machine) => extend(machine),
+        None => {}
+    }
+}
+
+fn extend(machine: &mut Value) {
+    if !machine.is_object() {
+        *machine = json!({ "extends": machine.take() });
     }
 }
 
@@ -134,14 +140,25 @@ mod tests {
 
     #[test]
     fn names_make_room_for_changes() {
-        for (before, after) in [
-            (json!({ "machine": "a" }), json!({ "machine": { "extends": "a" } })),
-            (json!({ "machine": ["a", "b"] }), json!({ "machine": { "extends": ["a", "b"] } })),
-            (json!({ "machine": ["a", {}] }), json!({ "machine": ["a", {}] })),
-            (json!({}), json!({})),
+        let items = json!({ "machine": [{ "extends": "a" }, { "extends": "b" }] });
+        for (before, by_list, after) in [
+            (json!({ "machine": "a" }), false, json!({ "machine": { "extends": "a" } })),
+            (json!({ "machine": ["a", "b"] }), false, items),
+            (
+                json!({ "machine": ["a", "b"] }),
+                true,
+                json!({ "machine": { "extends": ["a", "b"] } }),
+            ),
+            (
+                json!({ "machine": ["a", {}] }),
+                false,
+                json!({ "machine": [{ "extends": "a" }, {}] }),
+            ),
+            (json!({ "machine": ["a", {}] }), true, json!({ "machine": ["a", {}] })),
+            (json!({}), false, json!({})),
         ] {
             let mut experiment = before;
-            open_up(&mut experiment);
+            open_up(&mut experiment, by_list);
             assert_eq!(experiment, after);
         }
     }

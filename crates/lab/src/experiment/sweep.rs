@@ -1,9 +1,12 @@
 //! The rule of sweeps: where one value is expected, a list sweeps it.
 
-use config::{Document, Fault, Place, Step};
+use std::collections::BTreeMap;
+
+use config::{Dimension, Document, Fault, Place, Step, parse};
 use serde_json::Value;
 
 use crate::experiment::fields::UNSWEPT;
+use crate::files::counts::{Pair, Triple};
 
 /// Largest number of runs of an experiment; more is taken for a mistake.
 const MOST_RUNS: usize = 100_000;
@@ -44,7 +47,9 @@ impl Sweep {
             let message = format!("the lists make more than {MOST_RUNS} runs; expected fewer");
             return Err(document.fault(&Place::default(), message));
         };
-        let points = (0..runs).map(|run| point(&document.value, &axes, run)).collect();
+        let mut without_lists = document.value.clone();
+        axes.iter().for_each(|axis| put(&mut without_lists, &axis.place, &Value::Null));
+        let points = (0..runs).map(|run| point(&without_lists, &axes, run)).collect();
         Ok(Sweep { axes, points })
     }
 
@@ -89,17 +94,56 @@ fn check_list(document: &Document, items: &[Value], place: &Place) -> Result<(),
     if items.is_empty() {
         return Err(document.fault(place, "an empty list; expected at least one value to sweep"));
     }
+    if items.len() > MOST_RUNS {
+        let message = format!("a list of {}; expected at most {MOST_RUNS} values", items.len());
+        return Err(document.fault(place, message));
+    }
+    let mut known = BTreeMap::new();
     for (i, item) in items.iter().enumerate() {
         if has_list(item) {
             let message = format!("{item} inside a list; expected a single value to sweep");
             return Err(document.fault(&place.item(i), message));
         }
-        if items[..i].contains(item) {
-            let message = format!("{item} stands in the list twice; expected each value once");
+        if let Some(earlier) = known.insert(same_for_equals(item), item) {
+            let first = if earlier == item { "" } else { &format!(", first as {earlier}") };
+            let message =
+                format!("{item} stands in the list twice{first}; expected each value once");
             return Err(document.fault(&place.item(i), message));
         }
     }
     Ok(())
+}
+
+/// A text that is the same for values that mean the same: "10 ms" and "0.01 s", 1 and 1.0.
+fn same_for_equals(value: &Value) -> String {
+    match value {
+        Value::String(text) => {
+            let quantity = Dimension::ALL.into_iter().find_map(|dimension| {
+                // The last two digits may differ by rounding.
+                Some(format!("{dimension:?} {:.14e}", parse(text, dimension).ok()?))
+            });
+            let counts = || {
+                let triple = Triple::parse(text).map(|counts| counts.to_string());
+                triple.or_else(|_| Pair::parse(text).map(|counts| counts.to_string())).ok()
+            };
+            quantity.or_else(counts).unwrap_or_else(|| value.to_string())
+        }
+        Value::Number(number) => match number.as_f64() {
+            // Whole numbers beyond these are not all different as f64.
+            Some(float) if number.is_f64() && float.abs() < 2_f64.powi(53) => {
+                format!("{}", float + 0.0)
+            }
+            _ => number.to_string(),
+        },
+        Value::Object(fields) => {
+            let inner = fields.iter().map(|(name, inner)| (name, same_for_equals(inner)));
+            match fields.get("extends") {
+                Some(machine) if fields.len() == 1 => same_for_equals(machine),
+                _ => format!("{:?}", inner.collect::<BTreeMap<_, _>>()),
+            }
+        }
+        other => other.to_string(),
+    }
 }
 
 fn has_list(value: &Value) -> bool {
@@ -129,7 +173,7 @@ pub fn in_words(value: &Value) -> String {
     }
 }
 
-/// Point number `run`. Its index has the digits of `run` in the mixed radix of the axes, the last axis
+/// Point number `run` of a file whose lists are left out. Its index has the digits of `run` in the mixed radix of the axes, the last axis
 /// fastest.
 fn point(file: &Value, axes: &[Axis], run: usize) -> Point {
     let mut value = file.clone();
@@ -212,5 +256,47 @@ mod tests {
         let many = format!("[{}]", (0..400).map(|i| i.to_string()).collect::<Vec<_>>().join(","));
         let text = format!(r#"{{"a": {many}, "b": {many}}}"#);
         assert!(sweep(&text).unwrap_err().contains("more than 100000 runs"));
+    }
+
+    #[test]
+    fn equal_values_in_other_spellings_are_refused() {
+        for (list, message) in [
+            (
+                r#"["10 ms", "0.01 s"]"#,
+                r#"a[1]: "0.01 s" stands in the list twice, first as "10 ms""#,
+            ),
+            (r#"["0.3 cm", "1 m", "3 mm"]"#, r#"a[2]: "3 mm" stands"#),
+            (r#"["16 KB", "16000B"]"#, r#"first as "16 KB""#),
+            (r#"["1x2x3", "1 x 2 x 03"]"#, r#"first as "1x2x3""#),
+            ("[1, 1.0]", "1.0 stands in the list twice, first as 1;"),
+            ("[-0.0, 0]", "first as -0.0"),
+            (r#"["x", {"extends": "x"}]"#, r#"first as "x""#),
+            (r#"[{"b": "1 s", "c": 1}, {"c": 1e0, "b": "1000 ms"}]"#, "stands in the list twice"),
+        ] {
+            let refused = sweep(&format!(r#"{{"a": {list}}}"#)).unwrap_err();
+            assert!(refused.contains(message), "{refused}");
+        }
+        for list in [
+            r#"["10 ms", "10 m", "10", 10, "10 %", "10 MHz"]"#,
+            "[9007199254740993, 9007199254740992, 9007199254740992.5e3]",
+            "[0.1, 0.10000000000000002]",
+            r#"["a", "A", {"extends": "a", "b": 1}, {"extends": "a", "b": null}, null]"#,
+        ] {
+            assert!(sweep(&format!(r#"{{"a": {list}}}"#)).is_ok(), "{list}");
+        }
+    }
+
+    /// Time that grows with the square of a list's length would be minutes here.
+    #[test]
+    fn long_lists_are_taken_or_refused_at_once() {
+        let list = |count: u32| {
+            let items: Vec<String> = (0..count).map(|i| format!("\"{i} mm\"")).collect();
+            format!(r#"{{"a": [{}], "b": 1}}"#, items.join(","))
+        };
+        let all = sweep(&list(100_000)).unwrap();
+        let last = &all.points[99_999];
+        assert_eq!((all.points.len(), last.value["a"].as_str()), (100_000, Some("99999 mm")));
+        let refused = sweep(&list(300_000)).unwrap_err();
+        assert_eq!(refused, "x.json:1: a: a list of 300000; expected at most 100000 values");
     }
 }

@@ -28,8 +28,46 @@ pub fn write(path: &Path, contents: &[u8]) -> io::Result<()> {
     let written = fs::write(&temporary, contents).and_then(|()| fs::rename(&temporary, path));
     written.map_err(|error| {
         let _ = fs::remove_file(&temporary);
-        io::Error::new(error.kind(), format!("{}: cannot be written: {error}", path.display()))
+        named(path, "cannot be written", &error)
     })
+}
+
+/// Makes a folder, if it does not exist, and those around it.
+///
+/// # Errors
+/// The system's, with the folder's name.
+pub fn make_folder(path: &Path) -> io::Result<()> {
+    fs::create_dir_all(path).map_err(|error| named(path, "cannot be made", &error))
+}
+
+/// Deletes a file. That there is none is no error.
+///
+/// # Errors
+/// The system's, with the file's name.
+pub fn remove(path: &Path) -> io::Result<()> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => {
+            Err(named(path, "cannot be deleted", &error))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Checks that files can be written in a folder, or in the nearest one around it that exists. Nothing stays there.
+///
+/// # Errors
+/// The system's, with that folder's name.
+pub fn check_writable(folder: &Path) -> io::Result<()> {
+    let exists = |path: &&Path| fs::symlink_metadata(path).is_ok();
+    let existing = folder.ancestors().find(exists).unwrap_or(Path::new("."));
+    let probe = existing.join(format!(".virtwall.{}.tmp", std::process::id()));
+    let written = fs::write(&probe, "").and_then(|()| fs::remove_file(&probe));
+    written.map_err(|error| named(existing, "cannot be written", &error))
+}
+
+/// An error that names its file or folder.
+pub fn named(path: &Path, what: &str, error: &io::Error) -> io::Error {
+    io::Error::new(error.kind(), format!("{}: {what}: {error}", path.display()))
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use config::{Document, Fault, read_text};
+use config::{Document, Fault, json, read_text};
 use multicomputer::Trace;
 
 use crate::engine::simulator;
@@ -19,7 +19,7 @@ pub fn check(path: &Path) -> Result<String, Fault> {
         return scene(path, "an OBJ file");
     }
     let text = read_text(path)?;
-    if text.trim_start().starts_with('[') {
+    if json::without_mark(&text).trim_start().starts_with('[') {
         let file = path.display().to_string();
         let trace = Trace::from_json(&text, &file, usize::MAX).map_err(Fault::complete)?;
         return Ok(format!("a trace, {} messages", trace.messages.len()));

@@ -7,17 +7,18 @@ use config::{Document, Fault};
 use desim::Time;
 use multicomputer::Machine;
 use radiosity::{LocalEnvironment, Space};
-use serde_json::{Value, json};
+use serde_json::Value;
 use virtwall::{KeptShots, Problem};
 
 use crate::engine::simulator::{self, Light};
+use crate::experiment::accuracy;
 use crate::experiment::fields::Experiment;
+use crate::files::digest::FileDigest;
 use crate::files::find::{FileKind, find};
 use crate::open::problem;
 use crate::open::scene::Scene;
 use crate::open::settings::Settings;
 use crate::planning::plan::Plan;
-use crate::planning::preparing::Preparing;
 
 /// A scene, and where its light comes from.
 pub struct Stage {
@@ -61,11 +62,7 @@ impl Stage {
         if what.ends_with(".json") && path.is_file() {
             let document = Document::read(path)?;
             if document.value.get("scene").is_some() {
-                return Stage::of_plan(
-                    &Plan::read(path, which.set, &Preparing::default())?,
-                    which,
-                    Vec::new(),
-                );
+                return Stage::of_run(path, document, which, None);
             }
         }
         Stage::of_scene(what)
@@ -87,28 +84,30 @@ impl Stage {
     fn of_results(folder: &Path, which: &Which) -> Result<Stage, Fault> {
         let path = folder.join("manifest.json");
         let mut document = Document::read(&path)?;
-        let Some(experiment) = document.value.get_mut("experiment").map(Value::take) else {
+        let experiment = document.value.get_mut("experiment").map(Value::take);
+        let Some(experiment) = experiment.filter(Value::is_object) else {
             let message = "no \"experiment\"; expected a manifest that `run` wrote";
             return Err(Fault::of_file(path.display(), message));
         };
         let files = std::mem::replace(&mut document.value, experiment)["files"].take();
-        // What they were compared with, and drawn, is not needed.
-        for (field, nothing) in [("compare_with", Value::Null), ("plots", json!([]))] {
-            document.value[field] = nothing;
-        }
-        let plan = Plan::of(&path, document, which.set, &Preparing::default())?;
-        let same = |label: &str, digest: &str| files[label].as_str() == Some(digest);
-        let changed = plan.files.iter().filter(|file| !same(&file.label, &file.sha256));
-        let changed = changed.map(|file| file.label.clone()).collect();
-        Stage::of_plan(&plan, which, changed)
+        accuracy::without_replaced(&mut document.value);
+        Stage::of_run(&path, document, which, Some(&files))
     }
 
-    fn of_plan(plan: &Plan, which: &Which, changed: Vec<String>) -> Result<Stage, Fault> {
-        let row = which.row.unwrap_or(plan.runs.len());
-        let Some(run) = row.checked_sub(1).and_then(|index| plan.runs.get(index)) else {
-            let message = format!("{row}; expected a row of runs.csv, 1 to {}", plan.runs.len());
-            return Err(Fault::of_file("--run", message));
+    /// A run of an experiment; `files` are the digests that its results have of what they were made from.
+    fn of_run(
+        path: &Path,
+        document: Document,
+        which: &Which,
+        files: Option<&Value>,
+    ) -> Result<Stage, Fault> {
+        let (plan, row) = Plan::of_row(path, document, which.set, which.row)?;
+        let same = |file: &&FileDigest| {
+            files.is_none_or(|files| files[&file.label].as_str() == Some(&file.sha256))
         };
+        let changed = plan.files.iter().filter(|file| !same(file));
+        let changed = changed.map(|file| file.label.clone()).collect();
+        let run = &plan.runs[0];
         let point = run.point.clone();
         let title = format!("{}, {} on {} processors", plan.title, point.scene, point.processors);
         let problem = Arc::clone(&plan.problems[run.problem].problem);

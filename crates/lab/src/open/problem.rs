@@ -22,13 +22,14 @@ pub fn problem_on(
 ) -> Result<(Arc<Problem>, f64), WrongField> {
     let clock = HostClock::start();
     let cut = cut(scene, settings)?;
+    let cutting_s = clock.cpu_seconds();
     let mesh = |number: usize| {
         let clock = HostClock::start();
         (cut.environment(number as u32), clock.cpu_seconds())
     };
     let meshed = parallel::map(cut.environments() as usize, threads, mesh);
     let (environments, seconds): (_, Vec<f64>) = meshed.into_iter().unzip();
-    let cpu_s = clock.cpu_seconds() + seconds.iter().sum::<f64>();
+    let cpu_s = cutting_s + seconds.iter().sum::<f64>();
     let problem = cut.with(environments).with_smaller_hemispheres(smaller_hemispheres(settings)?);
     let problem = match settings.mask_bits {
         Some(bits) => problem.with_depth_bits(depth_bits(bits)?),

@@ -3,7 +3,7 @@
 use radiosity::HemisphereKind;
 use serde::Serialize;
 
-use crate::experiment::fields::{Experiment, is_default};
+use crate::experiment::fields::{Experiment, LEAST_THRESHOLD, is_default};
 use crate::experiment::interfaces::{Interfaces, VirtualWalls};
 use crate::experiment::refine::RefineFields;
 use crate::files::WrongField;
@@ -116,9 +116,9 @@ impl WallMesh {
             return Ok(None);
         }
         let VirtualWalls { patches, directions, rays, threshold } = &point.virtual_walls;
-        if threshold.value() == 0.0 {
-            let message = "0 %; expected more: virtual walls hand on ever less, for ever";
-            return Err(("virtual_walls.threshold", message.to_owned()));
+        if threshold.value() < LEAST_THRESHOLD {
+            let message = "expected 1e-28 % or more: virtual walls hand on ever less, for ever";
+            return Err(("virtual_walls.threshold", format!("{threshold}; {message}")));
         }
         let rays = rays.unwrap_or(point.hemisphere.pixels);
         Ok(Some(WallMesh { patches: *patches, directions: *directions, rays }))

@@ -1,19 +1,18 @@
-//! Makes a plan from an experiment file: makes every check, and loads each file once.
+//! Makes a plan of a sweep: makes every check, and loads each file once.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use config::{Document, Fault, Place, fill, read, refuse_unknown_keys};
+use config::{Document, Fault, Place, fill, read};
 use serde_json::Value;
 
 use crate::accuracy::answer::{self, Stored};
 use crate::accuracy::pilot::{Host, Pilots};
 use crate::accuracy::tuned::Tuned;
 use crate::accuracy::tuner::tune;
+use crate::experiment::accuracy;
 use crate::experiment::fields::Experiment;
-use crate::experiment::machine::open_up;
-use crate::experiment::schema::FIELDS;
 use crate::experiment::sweep::{Point, Sweep};
 use crate::files::digest::FileDigest;
 use crate::files::file::{self, PLAIN, is_plain};
@@ -32,49 +31,8 @@ use crate::table::cheapest::{least_time, read_sweep};
 use crate::table::comparison::Comparison;
 use crate::table::runs_csv::Table;
 
-impl Plan {
-    /// Reads an experiment file, applies `--set path=value` arguments, validates all of it with its scenes and
-    /// machines, and searches the settings that it leaves open.
-    ///
-    /// # Errors
-    /// The first fault met. Nothing was written.
-    pub fn read(path: &Path, arguments: &[String], preparing: &Preparing) -> Result<Plan, Fault> {
-        Plan::of(path, Document::read(path)?, arguments, preparing)
-    }
-
-    /// Reads an experiment from a document, as if it were the file at `path`.
-    pub(crate) fn of(
-        path: &Path,
-        mut document: Document,
-        arguments: &[String],
-        preparing: &Preparing,
-    ) -> Result<Plan, Fault> {
-        for argument in arguments {
-            if argument.starts_with("machine.") {
-                open_up(&mut document.value);
-            }
-            document.set(argument)?;
-        }
-        let known = refuse_unknown_keys(&FIELDS, &document.value);
-        known.map_err(|fault| document.locate(fault))?;
-        let planner = Planner {
-            path,
-            folder: path.parent().unwrap_or(Path::new("")),
-            sweep: &Sweep::of(&document)?,
-            document: &document,
-            preparing,
-            scenes: Vec::new(),
-            machines: Machines::default(),
-            references: BTreeMap::new(),
-            stored: Vec::new(),
-            sweeps: BTreeMap::new(),
-        };
-        planner.plan()
-    }
-}
-
 /// What planning has read so far.
-struct Planner<'a> {
+pub struct Planner<'a> {
     path: &'a Path,
     folder: &'a Path,
     document: &'a Document,
@@ -104,11 +62,33 @@ struct Draft<'a> {
 /// A scene that was read, and the CPU seconds that it took.
 type Loaded = (Scene, f64);
 
-impl Planner<'_> {
-    fn plan(mut self) -> Result<Plan, Fault> {
+impl<'a> Planner<'a> {
+    pub fn new(
+        path: &'a Path,
+        document: &'a Document,
+        sweep: &'a Sweep,
+        preparing: &'a Preparing,
+    ) -> Planner<'a> {
+        Planner {
+            path,
+            folder: path.parent().unwrap_or(Path::new("")),
+            sweep,
+            document,
+            preparing,
+            scenes: Vec::new(),
+            machines: Machines::default(),
+            references: BTreeMap::new(),
+            stored: Vec::new(),
+            sweeps: BTreeMap::new(),
+        }
+    }
+
+    pub fn plan(mut self) -> Result<Plan, Fault> {
         let name = self.name()?;
         let drafts = self.sweep.points.iter().map(|point| self.draft(point));
         let mut drafts = drafts.collect::<Result<Vec<Draft>, Fault>>()?;
+        // Before settings are found: those of one run are not those of others.
+        let resolved = self.resolved(&drafts[0].typed);
         let scenes = self.load()?;
         if self.preparing.finding {
             self.tune(&mut drafts, &scenes)?;
@@ -122,7 +102,6 @@ impl Planner<'_> {
         let runs = runs.collect::<Result<Vec<Run>, Fault>>()?;
         let first = &runs[0].point;
         let (title, plots) = (first.title.clone(), first.plots.clone());
-        let resolved = self.resolved(first);
         let (comparison, compared) = self.comparison(first)?;
 
         let mut files: Vec<FileDigest> =
@@ -251,14 +230,15 @@ impl Planner<'_> {
     /// share a setting.
     fn tune(&self, drafts: &mut [Draft], scenes: &[Loaded]) -> Result<(), Fault> {
         let mut asking: Vec<(Experiment, usize)> = Vec::new();
+        let mut known = BTreeMap::new();
         let mut asker = Vec::new();
         for (number, draft) in drafts.iter().enumerate().filter(|(_, d)| d.typed.accuracy.is_some())
         {
             let alike = Experiment { processors: 1, ..draft.typed.clone() };
-            let text = |experiment: &Experiment| serde_json::to_string(experiment).ok();
-            let known = asking.iter().position(|(other, _)| text(other) == text(&alike));
-            asker.push((number, known.unwrap_or(asking.len())));
-            if known.is_none() {
+            let text = serde_json::to_string(&alike).unwrap_or_default();
+            let asked = *known.entry(text).or_insert(asking.len());
+            asker.push((number, asked));
+            if asked == asking.len() {
                 asking.push((alike, number));
             }
         }
@@ -314,7 +294,8 @@ impl Planner<'_> {
         std::thread::scope(|scope| {
             // Saved runs are named by a digest of this program, which is computed meanwhile.
             if threads > 1 {
-                scope.spawn(program);
+                // If no thread can be started, it is computed when it is needed.
+                let _ = std::thread::Builder::new().spawn_scoped(scope, program);
             }
             parallel::map(self.scenes.len(), threads, load).into_iter().collect()
         })
@@ -327,13 +308,15 @@ impl Planner<'_> {
         scenes: &[Loaded],
     ) -> Result<(Vec<Prepared>, Vec<usize>), Fault> {
         let mut wanted: Vec<(Settings, &Draft)> = Vec::new();
+        let mut known = BTreeMap::new();
         let mut problem_of = Vec::new();
         for draft in drafts {
             let settings = Settings::of(&draft.typed, &scenes[draft.scene].0)
                 .map_err(|(field, message)| self.fault(draft.point, field, message))?;
-            let known = wanted.iter().position(|(other, _)| *other == settings);
-            problem_of.push(known.unwrap_or(wanted.len()));
-            if known.is_none() {
+            let text = serde_json::to_string(&settings).unwrap_or_default();
+            let problem = *known.entry(text).or_insert(wanted.len());
+            problem_of.push(problem);
+            if problem == wanted.len() {
                 wanted.push((settings, draft));
             }
         }
@@ -355,6 +338,7 @@ impl Planner<'_> {
     fn resolved(&self, first: &Experiment) -> Value {
         let mut resolved = self.document.value.clone();
         fill(&mut resolved, serde_json::to_value(first).unwrap_or_default());
+        accuracy::without_replaced(&mut resolved);
         resolved
     }
 

@@ -45,6 +45,7 @@ pub fn suits(typed: &Experiment, machine: &Machine) -> Result<(), WrongField> {
         let message = message + "; expected a machine whose file has \"start_up\"";
         return Err(("count_start_up", message));
     }
+    typed.stop.check()?;
     let SplitFields { most, nearer_than } = typed.source_split;
     if !(1..=MOST_PARTS).contains(&most) {
         return Err(("source_split.most", format!("{most}; expected 1 to {MOST_PARTS}")));

@@ -82,7 +82,7 @@ impl Results {
     /// Writes all files of results, each whole, and then deletes the runs saved one by one,
     /// unless some have failed.
     pub fn write(&self, out: &Path) -> io::Result<()> {
-        fs::create_dir_all(out)?;
+        file::make_folder(out)?;
         file::write(&out.join("runs.csv"), &self.table.to_csv()?)?;
         file::write(&out.join("manifest.json"), pretty(&self.manifest)?.as_bytes())?;
         self.draw(out)?;
@@ -191,7 +191,7 @@ pub fn write_host_times(
         "clock_s": of_runs(&|run| run.clock_s),
     });
     let times = json!({ "threads": threads, "seconds": seconds, "shots": shots, "runs": runs });
-    fs::create_dir_all(out)?;
+    file::make_folder(out)?;
     file::write(&out.join(host_times::FILE), pretty(&times)?.as_bytes())
 }
 

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use serde_json::Value;
 use viewer::ReportParts;
 
+use crate::experiment::accuracy::REPLACED;
 use crate::experiment::schema::FIELDS;
 use crate::experiment::sweep::in_words;
 use crate::results::console::{Line, lines};
@@ -188,7 +189,10 @@ fn choices(manifest: &Value) -> String {
     let mut rows = Vec::new();
     collect_choices(&FIELDS, &manifest["experiment"], "", &mut rows);
     rows.sort();
+    let finds = !manifest["experiment"]["accuracy"].is_null();
     let rows = rows.into_iter().map(|(number, field, value, about)| {
+        let found = finds && REPLACED.contains(&field.as_str());
+        let value = if found { "found".to_owned() } else { value };
         format!(
             "<tr><td>C{number}</td><td class=\"text\"><code>{}</code></td><td class=\"text\">{}</td>\
              <td class=\"text about\">{}</td></tr>\n",

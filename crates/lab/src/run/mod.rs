@@ -1,5 +1,6 @@
 //! Carries out the runs of a plan on worker threads.
 
+pub mod claim; // A folder of results, for one process at a time.
 pub mod feed; // Updates of a run for live viewers.
 pub mod progress; // Progress counters of a run.
 pub mod queue; // Which run is next.

@@ -148,10 +148,11 @@ pub fn carry_out(plan: &Plan, out: &Path, options: &Options, watch: Watch) -> io
         dense: DenseAnswers::default(),
         trouble: Mutex::new(None),
     };
+    let work = || shared.helpers.work_then_help(|| shared.work());
     std::thread::scope(|scope| {
-        for _ in 0..threads {
-            scope.spawn(|| shared.helpers.work_then_help(|| shared.work()));
-        }
+        let others = parallel::start(scope, threads - 1, work);
+        shared.helpers.without(threads - 1 - others.len());
+        work();
     });
     let trouble = held(&shared.trouble).take();
     trouble.map_or_else(|| Ok(shared.endings()), Err)

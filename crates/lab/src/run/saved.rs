@@ -10,11 +10,14 @@ use serde_json::json;
 use crate::engine::figures::Figures;
 use crate::engine::simulator::On;
 use crate::experiment::fields::Experiment;
-use crate::files::digest::{FileDigest, sha256};
+use crate::files::digest::{FileDigest, sealed, sha256, unsealed};
 use crate::files::file;
 use crate::host::host_clock::HostTimes;
 use crate::host::program::program;
 use crate::planning::plan::{Plan, Run};
+
+/// The folder of finished runs, in that of the results.
+pub const FOLDER: &str = ".partial";
 
 pub struct Saved {
     folder: PathBuf,
@@ -22,7 +25,7 @@ pub struct Saved {
 
 impl Saved {
     pub fn in_folder(out: &Path) -> Saved {
-        Saved { folder: out.join(".partial") }
+        Saved { folder: out.join(FOLDER) }
     }
 
     /// A digest of all that decides a run's figures: the point of the experiment without what only presents
@@ -55,22 +58,35 @@ impl Saved {
     /// missing.
     pub fn load(&self, key: &str) -> Option<(Figures, HostTimes)> {
         let text = fs::read_to_string(self.path(key)).ok()?;
-        serde_json::from_str(&text).ok()
+        serde_json::from_str(unsealed(key, &text)?).ok()
     }
 
     pub fn store(&self, key: &str, figures: &Figures, host: HostTimes) -> io::Result<()> {
-        fs::create_dir_all(&self.folder)?;
-        file::write(&self.path(key), &serde_json::to_vec(&(figures, host))?)
+        file::make_folder(&self.folder)?;
+        let text = sealed(key, &serde_json::to_string(&(figures, host))?);
+        file::write(&self.path(key), text.as_bytes())
     }
 
+    /// Deletes all finished runs, and the folder if it holds nothing else.
     pub fn forget(&self) -> io::Result<()> {
-        match fs::remove_dir_all(&self.folder) {
-            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
-            _ => Ok(()),
+        for entry in fs::read_dir(&self.folder).into_iter().flatten().flatten() {
+            if is_saved_run(&entry.file_name().to_string_lossy()) {
+                file::remove(&entry.path())?;
+            }
         }
+        // What others put there stays, and so does the lock of this run.
+        let _ = fs::remove_dir(&self.folder);
+        Ok(())
     }
 
     fn path(&self, key: &str) -> PathBuf {
         self.folder.join(format!("{key}.json"))
     }
+}
+
+/// Whether a name is that of a saved run, or of one that was being written.
+fn is_saved_run(name: &str) -> bool {
+    let key = name.split('.').next().unwrap_or_default();
+    let hexadecimal = key.len() == 64 && key.bytes().all(|byte| byte.is_ascii_hexdigit());
+    hexadecimal && (name.ends_with(".json") || name.ends_with(".tmp"))
 }

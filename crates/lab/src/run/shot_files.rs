@@ -1,7 +1,9 @@
 //! Kept shots in files, where later runs of this program find them.
 //!
 //! Every process appends only to its own files; it reads those that were in the folder when it began a
-//! problem. A record is a shot's key and code with a checksum; a damaged or incomplete one counts as missing.
+//! problem. A record is a shot's key and code with a checksum of them and of the problem; a damaged or incomplete
+//! one counts as missing, and so does one from another problem's file. The checksum guards against accidents, not
+//! against people who can write to the folder.
 //! The name of a file is a digest of all that decides the shots: this program, the scene's files, mesh, cut and
 //! hemisphere.
 
@@ -13,7 +15,7 @@ use std::sync::{Arc, Mutex};
 
 use serde_json::json;
 use virtwall::{Archive, ShotKey};
-use xxhash_rust::xxh3::xxh3_64;
+use xxhash_rust::xxh3::{xxh3_64, xxh3_64_with_seed};
 
 use crate::files::digest::sha256;
 use crate::host::held::held;
@@ -21,7 +23,7 @@ use crate::host::program::program;
 use crate::planning::plan::Prepared;
 
 /// What a file begins with, before the digest of its problem.
-const MAGIC: &str = "virtwall shots 1 ";
+const MAGIC: &str = "virtwall shots 2 ";
 
 /// Bytes of a record before its code: the code's length and the checksum of key and code; the key.
 const HEAD: usize = 4 + 8 + ShotKey::BYTES;
@@ -128,13 +130,14 @@ impl Shots {
     }
 
     /// The code at a place, if its checksum is right.
-    fn code(&mut self, key: &ShotKey, place: Place) -> Option<Vec<u8>> {
+    fn code(&mut self, problem: &str, key: &ShotKey, place: Place) -> Option<Vec<u8>> {
         let file = &mut self.files[place.file];
         file.seek(SeekFrom::Start(place.offset)).ok()?;
         let mut record = vec![0; HEAD + place.length as usize];
         file.read_exact(&mut record).ok()?;
         let (length, checksum, found) = split(record.first_chunk()?);
-        let right = (length, found) == (place.length, *key) && checksum == xxh3_64(&record[12..]);
+        let right = (length, found) == (place.length, *key);
+        let right = right && checksum == checksum_of(problem, &record[12..]);
         right.then(|| record.split_off(HEAD))
     }
 }
@@ -155,7 +158,7 @@ impl ShotFile {
         record.extend([0; 8]);
         record.extend(key.to_bytes());
         record.extend(code);
-        let checksum = xxh3_64(&record[12..]);
+        let checksum = checksum_of(&self.problem, &record[12..]);
         record[4..12].copy_from_slice(&checksum.to_le_bytes());
         // In one piece, past every buffer of this program: if it is killed, what is written stays.
         shots.files[file].write_all(&record)?;
@@ -188,7 +191,7 @@ impl Archive for ShotFile {
     fn find(&self, key: &ShotKey) -> Option<Vec<u8>> {
         let mut shots = held(&self.shots);
         let place = *shots.places.get(key)?;
-        shots.code(key, place)
+        shots.code(&self.problem, key, place)
     }
 
     fn put(&self, key: &ShotKey, code: &[u8]) {
@@ -199,6 +202,11 @@ impl Archive for ShotFile {
             *trouble = Some(format!("{}: {error}", self.folder.display()));
         }
     }
+}
+
+/// The checksum of a record of a problem: of its key and its code.
+fn checksum_of(problem: &str, record: &[u8]) -> u64 {
+    xxh3_64_with_seed(record, xxh3_64(problem.as_bytes()))
 }
 
 /// The parts of a record's head: length of the code, checksum, key.

@@ -246,7 +246,7 @@ fn shape(file: &MachineFile) -> Result<(Shape, desim::Duration), Fault> {
     }
     match found[..] {
         [(_, shape, hop_time)] => Ok((shape, hop_time)),
-        [] => refuse("", "missing field `mesh`, `torus`, `crossbar` or `bus`"),
+        [] => refuse("", "no \"mesh\", \"torus\", \"crossbar\" or \"bus\"; expected one of them"),
         [_, (name, ..), ..] => {
             refuse(name, format!("found besides \"{}\"; expected one of them", found[0].0))
         }
@@ -261,15 +261,15 @@ fn network(
     let software = file.parameters.as_ref().map(|parameters| loggp(parameters, hop_time));
     let links = match (&file.links, &software) {
         (Some(file), Some(software)) => Some(links(file, software)?),
-        (Some(_), None) => return refuse("network", "missing field `parameters`"),
+        (Some(_), None) => return refuse("network", "\"parameters\" is missing; expected it"),
         (None, _) => None,
     };
     let model = file.model.model();
     if model != Some(NetworkModel::Ideal) && software.is_none() {
-        return refuse("network", "missing field `parameters`");
+        return refuse("network", "\"parameters\" is missing; expected it");
     }
     if model.is_none_or(|model| model >= NetworkModel::Wormhole) && links.is_none() {
-        return refuse("network", "missing field `links`");
+        return refuse("network", "\"links\" is missing; expected it");
     }
     Ok((model, NetworkParameters { software, links }))
 }

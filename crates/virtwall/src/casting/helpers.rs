@@ -2,6 +2,7 @@
 
 use std::collections::VecDeque;
 use std::mem;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use super::waiters::Waiters;
@@ -18,7 +19,7 @@ pub struct Helpers {
     state: Mutex<State>,
     changed: Waiters,
     /// All threads.
-    threads: usize,
+    threads: AtomicUsize,
 }
 
 #[derive(Default)]
@@ -34,8 +35,14 @@ impl Helpers {
         Helpers {
             state: Mutex::new(State { working: threads, ..State::default() }),
             changed: Waiters::default(),
-            threads,
+            threads: AtomicUsize::new(threads),
         }
+    }
+
+    /// Says that `count` threads of the group could not be started.
+    pub fn without(&self, count: usize) {
+        self.threads.fetch_sub(count, Ordering::Relaxed);
+        (0..count).for_each(|_| drop(Working(self)));
     }
 
     /// Do the work of this thread, then help the others until theirs is done.
@@ -55,7 +62,7 @@ impl Helpers {
 
     /// Whether other threads may help, and the list of jobs has room.
     pub(crate) fn want_jobs(&self) -> bool {
-        self.threads > 1 && self.held().jobs.len() < MOST_JOBS
+        self.threads.load(Ordering::Relaxed) > 1 && self.held().jobs.len() < MOST_JOBS
     }
 
     /// Add a job for an idle thread.
@@ -103,7 +110,6 @@ impl Drop for Working<'_> {
 mod tests {
     use std::panic::{AssertUnwindSafe, catch_unwind};
     use std::sync::Arc;
-    use std::sync::atomic::{AtomicUsize, Ordering};
     use std::thread;
 
     use super::*;
@@ -139,6 +145,22 @@ mod tests {
             assert!(catch_unwind(panics).is_err());
             helping.join().unwrap();
         });
+    }
+
+    /// No thread waits for one that could not be started.
+    #[test]
+    fn a_group_may_be_smaller_than_planned() {
+        let helpers = Helpers::of(3);
+        thread::scope(|scope| {
+            let helping = scope.spawn(|| helpers.work_then_help(|| ()));
+            helpers.without(1);
+            helpers.work_then_help(|| ());
+            helping.join().unwrap();
+        });
+        assert!(Helpers::of(2).want_jobs());
+        let alone = Helpers::of(2);
+        alone.without(1);
+        assert!(!alone.want_jobs());
     }
 
     /// Jobs hold references, which may include one to the helpers.

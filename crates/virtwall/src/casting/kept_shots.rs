@@ -203,7 +203,7 @@ impl KeptShots {
         let archived =
             self.archive.as_ref().and_then(|archive| archive.find(&key)).and_then(|code| {
                 let shot = decode(&code, environment, source.mask.pixels()).ok()?;
-                Some((shot, code))
+                problem.closes(source, &shot).then_some((shot, code))
             });
         let (shot, code, found) = match archived {
             Some((shot, code)) => (shot, code, Found::Archived),

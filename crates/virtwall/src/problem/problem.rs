@@ -114,6 +114,26 @@ impl Problem {
         shoot(&self.space, environment, self.rays_of(emitter, mask), emitter, mask)
     }
 
+    /// Whether what a shot hits and what leaves it are the whole source, and no part is negative. Casting makes no
+    /// other shots; an archive may hold some.
+    pub fn closes(&self, source: &Source, shot: &Shot) -> bool {
+        let Source { emitter, mask, .. } = source;
+        let hits = shot.hits.iter().map(|(_, form_factor)| *form_factor);
+        let outgoing = shot.outgoing.iter().flatten().map(|outgoing| outgoing.form_factor);
+        let parts = hits.chain(outgoing).chain([shot.backs, shot.escaped, shot.medium]);
+        let (mut sum, mut least) = (0.0, 0.0_f64);
+        for part in parts {
+            sum += part;
+            least = least.min(part);
+        }
+        let whole = match mask.steps() {
+            // What is left of these rays is not known here.
+            Some(_) => sum.min(1.0),
+            None => self.rays_of(emitter, mask).form_factor(mask),
+        };
+        least >= 0.0 && (sum - whole).abs() <= 1e-9
+    }
+
     /// A source with what is left of its mask, for each neighbour that it enters (§4.2.3); for none where
     /// virtual walls gather what leaves.
     pub fn onward(&self, source: &Source, shot: &Shot) -> impl Iterator<Item = Source> {
