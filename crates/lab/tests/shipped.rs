@@ -51,18 +51,12 @@ fn runs_of_committed_results_can_be_drawn() {
     assert!(opened >= 17, "{opened}");
 }
 
-/// Results whose figures were drawn by an earlier version.
-const DRAWN_BEFORE: [&str; 3] = ["accuracy", "exhaustive", "scale"];
-
 /// Figures are drawn from the tables beside them.
 #[test]
 fn committed_figures_are_those_of_their_data() {
     let mut other = Vec::new();
     for folder in listed("results") {
         let Ok(results) = Results::read(&folder) else { continue };
-        if DRAWN_BEFORE.iter().any(|name| folder.ends_with(name)) {
-            continue;
-        }
         let drawn = tempfile::tempdir().unwrap();
         let times = "host-times.json";
         if folder.join(times).is_file() {
