@@ -132,7 +132,10 @@ impl Shared {
                 let only = query.strip_prefix("run=").and_then(|run| run.parse().ok());
                 match self.board.add_viewer(MOST_VIEWERS) {
                     true => stream::write(&self.board, only, stream),
-                    false => respond(Answer::refusal(503, "64 viewers watch, which is the most\n")),
+                    false => {
+                        let why = format!("{MOST_VIEWERS} viewers watch, which is the most\n");
+                        respond(Answer::refusal(503, &why))
+                    }
                 }
             }
             // Every browser asks for it; there is none.

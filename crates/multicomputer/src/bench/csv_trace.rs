@@ -28,7 +28,7 @@ impl Trace {
             line: Some(line),
             ..Fault::of_file(file_name, message)
         };
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let text = config::json::without_mark(text);
         let mut reader =
             ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).from_reader(text.as_bytes());
         let broken = |error: csv::Error| {

@@ -173,6 +173,7 @@ impl<'a> Reader<'a> {
         while !self.take("}") {
             let line = self.line();
             let Some(word) = self.peek() else { return self.wrong("\"}\"") };
+            let mut label = None;
             if !matches!(word, "calc" | "send" | "recv") {
                 if !word.starts_with(|c: char| c.is_ascii_alphabetic()) {
                     return self.wrong("calc, send, recv, a label or \"}\"");
@@ -182,6 +183,7 @@ impl<'a> Reader<'a> {
                     self.dependency(word, &labels)?;
                     continue;
                 }
+                label = Some(word);
                 if labels.insert(word, self.schedule.operations.len()).is_some() {
                     return Err((
                         line,
@@ -190,11 +192,10 @@ impl<'a> Reader<'a> {
                 }
             }
             let kind = self.operation()?;
-            let label = if matches!(word, "calc" | "send" | "recv") { "" } else { word };
             let number = self.schedule.operations.len();
             let name = match label {
-                "" => format!("{rank}.{number}"),
-                label => format!("{rank}.{label}"),
+                None => format!("{rank}.{number}"),
+                Some(label) => format!("{rank}.{label}"),
             };
             self.schedule.operations.push(Operation { name, node: rank, kind, after: Vec::new() });
             self.lines.push(line);

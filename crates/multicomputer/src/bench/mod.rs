@@ -1,6 +1,7 @@
 //! Small programs and traffic that measure machines.
 
 mod csv_trace; // traffic as CSV
+mod dependencies; // items that wait for others
 mod goal; // schedules in the text form of LogGOPSim
 mod kernels; // ping-pong, exchange, hot spot
 mod performance; // a schedule performed over a network

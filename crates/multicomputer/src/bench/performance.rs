@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, VecDeque};
 use desim::{EventQueue, Time};
 use thiserror::Error;
 
+use super::dependencies::Dependencies;
 use super::replay::ReplayedMessage;
 use super::schedule::{Operation, OperationKind, Schedule};
 use super::trace::TraceMessage;
@@ -80,8 +81,7 @@ type Mailbox = (VecDeque<usize>, VecDeque<usize>);
 struct Performance<'a> {
     operations: &'a [Operation],
     events: EventQueue<Event>,
-    waits_for: Vec<usize>,
-    followers: Vec<Vec<usize>>,
+    dependencies: Dependencies,
     ended: Vec<bool>,
     /// By message, the operation that sends it, and its times.
     messages: Vec<(usize, ReplayedMessage)>,
@@ -99,8 +99,7 @@ impl Performance<'_> {
         let mut performance = Performance {
             operations,
             events: EventQueue::default(),
-            waits_for: operations.iter().map(|operation| operation.after.len()).collect(),
-            followers: vec![Vec::new(); operations.len()],
+            dependencies: Dependencies::of(operations.iter().map(|operation| &operation.after)),
             ended: vec![false; operations.len()],
             messages: Vec::new(),
             mailboxes: BTreeMap::new(),
@@ -112,8 +111,7 @@ impl Performance<'_> {
                 performance.message_of.insert(index, performance.messages.len());
                 performance.messages.push((index, ReplayedMessage::default()));
             }
-            operation.after.iter().for_each(|&earlier| performance.followers[earlier].push(index));
-            if operation.after.is_empty() {
+            if !performance.dependencies.waits(index) {
                 performance.events.schedule(Time::ZERO, Event::Ready(index));
             }
         }
@@ -138,11 +136,8 @@ impl Performance<'_> {
             Event::Begin(index) => self.begin(index, now, network),
             Event::End(index) => {
                 self.ended[index] = true;
-                for follower in std::mem::take(&mut self.followers[index]) {
-                    self.waits_for[follower] -= 1;
-                    if self.waits_for[follower] == 0 {
-                        self.events.schedule(now, Event::Ready(follower));
-                    }
+                for follower in self.dependencies.end(index) {
+                    self.events.schedule(now, Event::Ready(follower));
                 }
             }
         }

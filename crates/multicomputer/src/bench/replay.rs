@@ -3,6 +3,7 @@
 use desim::{Duration, EventQueue, Time};
 use thiserror::Error;
 
+use super::dependencies::Dependencies;
 use super::trace::{Trace, TraceMessage};
 use crate::network::{Arrival, Deadlock, Message, Network, Place, Stall, Topology};
 
@@ -82,9 +83,8 @@ struct Replay<'a> {
     results: Vec<ReplayedMessage>,
     /// Messages that can be sent, by time.
     due: EventQueue<usize>,
-    /// For each message, how many messages it waits for, and the messages that wait for it.
-    waits_for: Vec<usize>,
-    followers: Vec<Vec<usize>>,
+    /// Which messages wait for which.
+    dependencies: Dependencies,
     /// When each node's processor is free.
     free: Vec<Time>,
 }
@@ -96,13 +96,11 @@ impl Replay<'_> {
             messages,
             results: vec![ReplayedMessage::default(); messages.len()],
             due: EventQueue::default(),
-            waits_for: messages.iter().map(|message| message.after.len()).collect(),
-            followers: vec![Vec::new(); messages.len()],
+            dependencies: Dependencies::of(messages.iter().map(|message| &message.after)),
             free: vec![Time::ZERO; places],
         };
         for (index, message) in messages.iter().enumerate() {
-            message.after.iter().for_each(|&earlier| replay.followers[earlier].push(index));
-            if message.after.is_empty() {
+            if !replay.dependencies.waits(index) {
                 replay.due.schedule(message.at, index);
             }
         }
@@ -128,11 +126,8 @@ impl Replay<'_> {
         *free = arrival.at.max(*free) + overhead;
         self.results[index].arrived = *free;
         self.results[index].stalls = arrival.stalls;
-        for follower in std::mem::take(&mut self.followers[index]) {
-            self.waits_for[follower] -= 1;
-            if self.waits_for[follower] == 0 {
-                self.due.schedule(self.messages[follower].at.max(*free), follower);
-            }
+        for follower in self.dependencies.end(index) {
+            self.due.schedule(self.messages[follower].at.max(*free), follower);
         }
     }
 }

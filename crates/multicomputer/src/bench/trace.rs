@@ -8,6 +8,8 @@ use desim::{Duration, Time};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::dependencies::Dependencies;
+
 /// Longest message, bytes: a longer one must be a mistake.
 pub(super) const MOST_BYTES: u64 = 1_000_000_000;
 /// Latest time of a send, seconds: virtual time ends after 213 days.
@@ -197,20 +199,12 @@ impl Trace {
 
     /// For each message, whether it can never be sent (Kahn's algorithm).
     fn waiting(&self) -> Vec<bool> {
-        let mut waits_for: Vec<usize> = self.messages.iter().map(|m| m.after.len()).collect();
-        let mut followers = vec![Vec::new(); self.messages.len()];
-        for (i, message) in self.messages.iter().enumerate() {
-            message.after.iter().for_each(|&earlier| followers[earlier].push(i));
-        }
-        let mut ready: Vec<usize> = (0..waits_for.len()).filter(|&i| waits_for[i] == 0).collect();
+        let mut dependencies = Dependencies::of(self.messages.iter().map(|message| &message.after));
+        let all = 0..self.messages.len();
+        let mut ready: Vec<usize> = all.clone().filter(|&i| !dependencies.waits(i)).collect();
         while let Some(sent) = ready.pop() {
-            for &follower in &followers[sent] {
-                waits_for[follower] -= 1;
-                if waits_for[follower] == 0 {
-                    ready.push(follower);
-                }
-            }
+            ready.extend(dependencies.end(sent));
         }
-        waits_for.into_iter().map(|count| count > 0).collect()
+        all.map(|i| dependencies.waits(i)).collect()
     }
 }
