@@ -173,8 +173,8 @@ pub fn in_words(value: &Value) -> String {
     }
 }
 
-/// Point number `run` of a file whose lists are left out. Its index has the digits of `run` in the mixed radix of the axes, the last axis
-/// fastest.
+/// Point number `run` of a file whose lists are left out. Its index has the digits of `run` in the mixed
+/// radix of the axes, the last axis fastest.
 fn point(file: &Value, axes: &[Axis], run: usize) -> Point {
     let mut value = file.clone();
     let mut index = vec![0; axes.len()];
