@@ -29,7 +29,7 @@ mod results;
 mod run;
 mod table;
 
-pub use engine::simulator::{Light, On};
+pub use engine::simulator::{Light, On, Solved};
 pub use experiment::fields::Plot;
 pub use experiment::schema::experiment_schema;
 pub use files::file::write as write_file;

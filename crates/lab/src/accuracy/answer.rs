@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, OnceLock};
 
 use config::Fault;
 use radiosity::{LocalEnvironment, PatchSize, Rgb, Space};
-use reference::{Dense, Patches, Reference};
+use reference::{Dense, Difference, NoReference, Patches, Reference};
 use virtwall::Problem;
 
 use crate::files::digest::FileDigest;
@@ -34,6 +34,15 @@ pub struct Answer {
     pub error: f64,
 }
 
+impl Answer {
+    /// Checks that it reflects light, to which errors are relative.
+    pub fn check(&self) -> Result<(), String> {
+        let Answer { patches, radiosity, .. } = self;
+        let light = Difference::between(patches, radiosity, radiosity, radiosity);
+        light.map(|_| ()).ok_or_else(|| format!("the reference is dark: {}", NoReference::Dark))
+    }
+}
+
 pub struct Stored {
     pub answer: Arc<Answer>,
     pub digest: FileDigest,
@@ -58,8 +67,11 @@ impl Stored {
         if !sound || !(1..=1 << 28).contains(&cells) {
             return refuse("no sizes of patches and cells; expected them".to_owned());
         }
-        let space = Space::new(scene.clone(), subject.cells);
         let size = PatchSize { reflector, emitter };
+        if let Err(error) = size.check(scene) {
+            return refuse(error.to_string());
+        }
+        let space = Space::new(scene.clone(), subject.cells);
         let environment = LocalEnvironment::new(&space, space.grid.whole(), size);
         let patches = Patches::new(&space, &environment);
         if patches.digest() != subject.patches_sha256 || patches.count() != stored.radiosity.len() {
@@ -68,7 +80,11 @@ impl Stored {
             return refuse(message.to_owned());
         }
         let radiosity = stored.radiosity.iter().map(|&colours| Rgb::from(colours)).collect();
-        let answer = Arc::new(Answer { patches, radiosity, error: stored.relative_l2_error });
+        let answer = Answer { patches, radiosity, error: stored.relative_l2_error };
+        if let Err(message) = answer.check() {
+            return refuse(message);
+        }
+        let answer = Arc::new(answer);
         Ok(Stored { answer, digest: FileDigest::of(&bytes, &found.label) })
     }
 }
@@ -91,6 +107,7 @@ fn dense(problem: &Problem, patches: Patches) -> Answer {
     let dense = Dense::new(scene, patches, TOLERANCE, parallel::host_threads(), || ());
     let solution = dense.solve();
     let patches = dense.patches().clone();
-    let error = solution.relative_l2_error(&patches);
+    // A dark answer is refused where a run is compared with it.
+    let error = solution.relative_l2_error(&patches).unwrap_or(f64::INFINITY);
     Answer { radiosity: solution.radiosity, patches, error }
 }

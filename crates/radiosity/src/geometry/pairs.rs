@@ -32,12 +32,7 @@ fn inside(boxes: &[Bounds], items: &mut [u32], visit: &mut impl FnMut(u32, u32))
 }
 
 /// The pairs of a box of each group.
-fn between(
-    boxes: &[Bounds],
-    one: &mut [u32],
-    other: &mut [u32],
-    visit: &mut impl FnMut(u32, u32),
-) {
+fn between(boxes: &[Bounds], one: &mut [u32], other: &mut [u32], visit: &mut impl FnMut(u32, u32)) {
     if !meet(&around(boxes, one), &around(boxes, other)) {
         return;
     }
