@@ -72,6 +72,10 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         Method::Exact => exact(&objects, arguments.tolerance, threads),
         Method::Rays => by_rays(&open, arguments, threads)?,
     };
+    let all = matrix.iter().flatten();
+    if all.clone().any(|found| !(found.value.is_finite() && found.error.is_finite())) {
+        return Err(Exit::failure("a form factor that is not finite; nothing is written"));
+    }
     let text = formatted(&objects, &matrix, arguments.format).map_err(Exit::failure)?;
     let Some(path) = &arguments.output else { return Ok(text) };
     write(path, text)?;

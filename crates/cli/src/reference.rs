@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use lab::OpenScene;
 use radiosity::{LocalEnvironment, Space};
-use reference::{Dense, Method, Patches, Paths, Problem, Received, Reference, Subject};
+use reference::{
+    Dense, Method, NoReference, Patches, Paths, Problem, Received, Reference, Subject,
+};
 use serde::{Deserialize, Serialize};
 
 use crate::exit::Exit;
@@ -113,6 +115,8 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         Method::Dense { tolerance } => meshed.dense(subject, tolerance),
         Method::Paths { .. } => meshed.paths(subject, &partial)?,
     };
+    let refuse = |error: NoReference| Exit::bad_input(format!("{}: {error}", arguments.scene));
+    let found = found.map_err(refuse)?;
     let text = match arguments.format {
         Format::Json => serde_json::to_string(&found).map_err(Exit::failure)? + "\n",
         Format::Csv => meshed.csv(&found),
@@ -165,7 +169,7 @@ fn output_file(arguments: &Arguments, scene: &str) -> Result<PathBuf, Exit> {
 }
 
 impl Meshed {
-    fn dense(&self, subject: Subject, tolerance: f64) -> Reference {
+    fn dense(&self, subject: Subject, tolerance: f64) -> Result<Reference, NoReference> {
         let steps = Steps::new("patches", self.patches.count());
         let (scene, patches) = (&self.space.scene, self.patches.clone());
         let dense = Dense::new(scene, patches, tolerance, self.threads, || steps.one());
@@ -173,7 +177,11 @@ impl Meshed {
         Reference::new(subject, &self.patches, &dense.solve())
     }
 
-    fn paths(&self, subject: Subject, saved: &Path) -> Result<Reference, Exit> {
+    fn paths(
+        &self,
+        subject: Subject,
+        saved: &Path,
+    ) -> Result<Result<Reference, NoReference>, Exit> {
         let Method::Paths { paths_a_round, rounds, seed } = subject.method else {
             return Err(Exit::failure("not a method of paths"));
         };

@@ -5,14 +5,15 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use config::{Dimension, parse};
 use desim::Time;
-use lab::{Light, Stage, Which};
+use lab::{Light, Solved, Stage, Which};
 use radiosity::glam::DVec3;
 use radiosity::{
     Camera, Exposure, LARGEST_PICTURE, Mesh, Picture, PictureOptions, Rgb, Shading, Tone, render,
 };
 
-use crate::exit::Exit;
+use crate::exit::{Exit, print_note};
 use crate::files::write;
+use crate::steps::Steps;
 
 /// The most frames whose light is in memory at one time.
 const BATCH: usize = 32;
@@ -47,7 +48,8 @@ pub struct Arguments {
 
 #[derive(Args)]
 struct Moment {
-    /// Solve a scene until at most this share of the light is unshot, or for 5,000 shots
+    /// Solve a scene until at most this share of the light is unshot, or for 100,000 shots; a warning says
+    /// if they were not enough
     #[arg(long, value_name = "SHARE", default_value = "10 %", value_parser = share)]
     unshot: f64,
     /// Which run: its row in runs.csv, from 1 [default: the last]
@@ -152,6 +154,15 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     })
 }
 
+/// The light of a scene; warns if more is left than what was asked for.
+pub fn solved(stage: &Stage, unshot: f64) -> Solved {
+    let (steps, watch) = Steps::of_light(unshot);
+    let solved = stage.solved(unshot, watch);
+    steps.end();
+    solved.warning(unshot).iter().for_each(|warning| print_note(&format!("warning: {warning}")));
+    solved
+}
+
 struct Renderer<'a> {
     arguments: &'a Arguments,
     stage: &'a Stage,
@@ -163,8 +174,9 @@ impl Renderer<'_> {
     fn still(&self) -> Result<String, Exit> {
         let (light, mut exposure, when) = match &self.stage.run {
             None => {
-                let (light, unshot) = self.stage.solved(self.arguments.moment.unshot);
-                let when = format!("{:.1} % of the light unshot", 100.0 * unshot);
+                let Solved { light, left, shots } =
+                    solved(self.stage, self.arguments.moment.unshot);
+                let when = format!("{:.1} % of the light unshot after {shots} shots", 100.0 * left);
                 (light, self.exposure(), when)
             }
             Some(run) => {
@@ -181,7 +193,8 @@ impl Renderer<'_> {
         }
         if let Some(path) = &self.arguments.gltf {
             let origin = self.stage.space().scene.origin;
-            let (bytes, middle_grey) = self.mesh.to_glb(&light, origin, exposure, self.tone());
+            let (bytes, middle_grey) =
+                self.mesh.to_glb(&light, origin, exposure, self.tone()).map_err(Exit::failure)?;
             write(path, &bytes)?;
             exposure = Exposure::MiddleGrey(middle_grey);
         }

@@ -25,12 +25,15 @@ impl Steps {
         }
     }
 
-    pub fn one(&self) {
-        self.0.inc(1);
+    /// A bar of the light that is shot, until at most the share `unshot` is left; and what shows the share.
+    pub fn of_light(unshot: f64) -> (Steps, impl Fn(f64)) {
+        let steps = Steps::new("% of the light", (100.0 * (1.0 - unshot)) as usize);
+        let bar = steps.0.clone();
+        (steps, move |left: f64| bar.set_position((100.0 * (1.0 - left)) as u64))
     }
 
-    pub fn at(&self, steps: u64) {
-        self.0.set_position(steps);
+    pub fn one(&self) {
+        self.0.inc(1);
     }
 
     /// Counts steps that were done in an earlier run. The estimate of the time left ignores them.

@@ -141,3 +141,68 @@ fn bad_input_is_refused() {
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 3, "{arguments}");
     }
 }
+
+/// A lamp in the ceiling's plane gives the same answers before and after the ceiling in the file.
+#[test]
+fn the_order_of_overlapping_faces_does_not_matter() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    write("m.mtl", "newmtl white\nKd 0.7 0.6 0.5\nnewmtl lamp\nKd 0 0 0\nKe 50 40 30\n");
+    let vertices =
+        "mtllib m.mtl\nv 0 0 0\nv 1.6 0 0\nv 1.6 1.2 0\nv 0 1.2 0\nv 0 0 1.1\nv 1.6 0 1.1
+v 1.6 1.2 1.1\nv 0 1.2 1.1\nv 0.6 0.4 1.1\nv 1.0 0.4 1.1\nv 1.0 0.7 1.1\nv 0.6 0.7 1.1\n";
+    let sides =
+        "usemtl white\no floor\nf 1 2 3 4\no sides\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n";
+    let (ceiling, lamp) =
+        ("usemtl white\no ceiling\nf 8 7 6 5\n", "usemtl lamp\no lamp\nf 12 11 10 9\n");
+    let mut found = Vec::new();
+    for (name, last) in [("a", [ceiling, lamp].concat()), ("b", [lamp, ceiling].concat())] {
+        write(&format!("{name}.obj"), &[vertices, sides, &last].concat());
+        write(
+            &format!("{name}.json"),
+            &format!(r#"{{"obj": "{name}.obj", "patch_size": "0.8 m"}}"#),
+        );
+        let run = |arguments: &str| {
+            let (code, said, stderr) = virtwall(folder.path(), arguments);
+            assert_eq!(code, 0, "{arguments}: {stderr}");
+            said
+        };
+        let factors = run(&format!("formfactors {name}.obj --format csv"));
+        let rows: Vec<&str> =
+            factors.lines().filter(|row| row.starts_with("lamp,floor,")).collect();
+        let factor: f64 = rows[0].split(',').nth(2).unwrap().parse().unwrap();
+        // W of red light on all patches, for both methods.
+        let light = ["dense", "paths"].map(|method| {
+            let arguments =
+                format!("reference {name}.json --method {method} --format csv --output r.csv");
+            run(&arguments);
+            let csv = fs::read_to_string(folder.path().join("r.csv")).unwrap();
+            let watts = csv.lines().skip(1).map(|row| {
+                let number = |place| row.split(',').nth(place).unwrap().parse::<f64>().unwrap();
+                number(5) * number(6)
+            });
+            watts.sum::<f64>()
+        });
+        found.push((factor, light));
+    }
+    let [(one, [dense, paths]), (other, [dense_too, paths_too])] = found[..] else { panic!() };
+    // The value of a closed formula, with the lamp in front.
+    assert!((one - 0.323_440).abs() < 2e-6 && (one - other).abs() < 2e-6, "{one} {other}");
+    assert!((dense / dense_too - 1.0).abs() < 1e-3, "{dense} {dense_too}");
+    assert!((paths / paths_too - 1.0).abs() < 1e-2, "{paths} {paths_too}");
+    assert!((paths / dense - 1.0).abs() < 2e-2, "{paths} {dense}");
+}
+
+/// Errors are relative to the reflected light, so a reference without light is refused.
+#[test]
+fn a_dark_reference_is_refused() {
+    let folder = folder();
+    fs::write(folder.path().join("m.mtl"), MATERIALS.replace("Ke 10 9 8", "")).unwrap();
+    for method in ["dense", "paths --paths 64"] {
+        let arguments = format!("reference s.json --method {method} --output dark.json");
+        let (code, said, stderr) = virtwall(folder.path(), &arguments);
+        assert_eq!((code, said.as_str()), (2, ""));
+        assert!(stderr.contains("s.json: no light is reflected; expected some"), "{stderr}");
+        assert!(!folder.path().join("dark.json").exists());
+    }
+}

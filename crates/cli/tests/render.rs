@@ -38,7 +38,8 @@ const INSIDE: &str = "--camera inside --size 60x40 --exposure 5";
 fn a_scene_is_drawn_and_exported() {
     let project = Project::new(SWEEP);
     let said = render(&project, "box -o a.png --gltf a.glb --unshot 50~% --size 60x40");
-    assert!(said.contains(" % of the light unshot; middle grey is "), "{said}");
+    let (_, said_of_light) = said.split_once(" % of the light unshot after ").unwrap();
+    assert!(said_of_light.contains(" shots; middle grey is "), "{said}");
     assert!(said.ends_with("\n60 x 40 pixels\n"), "{said}");
     assert!(bytes(&project, "a.glb").starts_with(b"glTF\x02\0\0\0"));
     let [smooth, flat, linear] = ["", "--shading flat", "--tone linear"].map(|how| {
@@ -53,6 +54,34 @@ fn a_scene_is_drawn_and_exported() {
     let own = "--eye 0.2,0.2,1.7 --target 3.8,1.8,1 --field-of-view 60 --up 0,0,1";
     render(&project, &format!("box -o c.png --unshot 50~% {own} --size 60x40"));
     assert!(bytes(&project, "c.png").len() > 500);
+}
+
+/// A bare OBJ file has thousands of patches: more shots than those of the lights are needed.
+#[test]
+fn a_bare_obj_file_is_solved_as_far_as_promised() {
+    let project = Project::new(SWEEP);
+    let quad = |a: usize| format!("f {a} {} {} {}\n", a + 1, a + 2, a + 3);
+    let mut obj = "mtllib room.mtl\no walls\nusemtl white\n".to_owned();
+    let faces = [
+        "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\n",
+        "v 0 0 3\nv 0 4 3\nv 4 4 3\nv 4 0 3\n",
+        "v 0 0 0\nv 0 0 3\nv 4 0 3\nv 4 0 0\n",
+        "v 4 4 0\nv 4 4 3\nv 0 4 3\nv 0 4 0\n",
+        "v 0 4 0\nv 0 4 3\nv 0 0 3\nv 0 0 0\n",
+        "v 4 0 0\nv 4 0 3\nv 4 4 3\nv 4 4 0\n",
+    ];
+    for (number, face) in faces.into_iter().enumerate() {
+        obj += &format!("{face}{}", quad(4 * number + 1));
+    }
+    obj += "o lamp\nusemtl lamp\nv 1 1 2.9\nv 1 3 2.9\nv 3 3 2.9\nv 3 1 2.9\nf 25 26 27 28\n";
+    project.write("room.obj", &obj);
+    project.write("room.mtl", "newmtl white\nKd 0.4 0.4 0.4\nnewmtl lamp\nKd 0 0 0\nKe 9 9 9\n");
+    let (code, said, stderr) = virtwall(&project, "render room.obj --gltf a.glb");
+    assert_eq!(code, 0, "{stderr}");
+    let line = said.lines().nth(1).unwrap();
+    let (left, rest) = line.split_once(" % of the light unshot after ").unwrap();
+    let shots: u64 = rest.split(' ').next().unwrap().parse().unwrap();
+    assert!(left.parse::<f64>().unwrap() <= 10.0 && shots > 5_000, "{said}");
 }
 
 #[test]

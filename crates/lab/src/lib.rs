@@ -15,7 +15,7 @@ mod results; // from finished runs to tables, plots and reports
 mod run; // carries out the runs of a plan on worker threads
 mod table; // the table of results: its columns, and what is read from it
 
-pub use engine::simulator::{Light, On};
+pub use engine::simulator::{Light, On, Solved};
 pub use experiment::fields::Plot;
 pub use experiment::schema::experiment_schema;
 pub use files::digest::{sealed, unsealed};

@@ -39,7 +39,7 @@ fn project(change: impl Fn(&mut Reference)) -> Project {
         method: Method::Dense { tolerance: 1e-4 },
     };
     let dense = Dense::new(&space.scene, patches.clone(), 1e-4, 1, || ());
-    let mut reference = Reference::new(subject, &patches, &dense.solve());
+    let mut reference = Reference::new(subject, &patches, &dense.solve()).unwrap();
     change(&mut reference);
     project.write(STORED, &serde_json::to_string(&reference).unwrap());
     project
@@ -81,6 +81,23 @@ fn errors_are_told_and_taken_apart() {
     }
 }
 
+/// A run that is compared with a dense solution without light fails: its error is not 0.
+#[test]
+fn an_error_relative_to_no_light_is_an_error() {
+    let project = project(|_| ());
+    project.write("experiments/x.json", &experiment(r#", "reference": "dense""#));
+    let path = project.path("scenes/box.mtl");
+    let text = fs::read_to_string(&path).unwrap();
+    fs::write(&path, text.replace("Kd 0.5 0.5 0.5", "Kd 0 0 0")).unwrap();
+    let plan = Plan::read(&project.path("experiments/x.json"), &[], &Preparing::default()).unwrap();
+    let options = Options { fresh: true, memory: 1 << 28, ..options(1) };
+    let endings = carry_out(&plan, &project.path("out"), &options, Arc::new(|_| {})).unwrap();
+    let results = Results::of(&plan, &endings, &options).unwrap();
+    let (table, row) = (&results.table, &results.table.rows[0]);
+    assert_eq!(table.cell(row, "error_l2"), "");
+    assert_eq!(results.failures(), 2);
+}
+
 #[test]
 fn references_that_do_not_fit_are_refused() {
     let good = || project(|_| ());
@@ -104,13 +121,20 @@ fn references_that_do_not_fit_are_refused() {
         (project(|reference| _ = reference.radiosity.pop()), patches),
         (project(|reference| reference.subject.cells = [0, 1, 1]), "no sizes of patches and cells"),
         // A mesh that no memory holds is refused before it is made.
-        (project(|reference| reference.subject.patch_size_m = 1e-6), "the radiosities in it"),
-        (project(|reference| reference.subject.emitter_patch_size_m = 1e-9), "make some"),
+        (project(|reference| reference.subject.patch_size_m = 1e-6), "patches"),
+        (project(|reference| reference.subject.emitter_patch_size_m = 1e-9), "patches"),
         (
             project(|reference| reference.subject.cells = [16_384, 16_384, 1]),
             "cells; expected at most",
         ),
         (project(|reference| reference.subject.cells = [u32::MAX; 3]), "cells; expected at most"),
+        (
+            project(|reference| {
+                let reflecting = reference.radiosity.iter_mut().filter(|patch| patch[0] < 99.0);
+                reflecting.for_each(|patch| *patch = [0.0; 3]);
+            }),
+            "the reference is dark",
+        ),
         (unreadable, "expected what `reference` has stored"),
         (missing, "reference: unknown reference \"box\""),
     ] {

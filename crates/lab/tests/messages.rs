@@ -7,7 +7,7 @@ mod common;
 use std::fs;
 
 use common::Project;
-use lab::{Plan, Preparing};
+use lab::{Plan, Preparing, Solved};
 use serde_json::{Value, json};
 
 /// The message for an experiment file, with the project's folder taken out of it.
@@ -118,8 +118,13 @@ fn experiments_are_refused_with_place_value_and_expectation() {
         ),
         (
             &format!("{{{good}, \"patch_size\": \"0.1 mm\"}}"),
-            "experiments/x.json:1: patch_size: 0.0001 m makes some 4004000000 patches; expected at \
-             most 20000000",
+            "experiments/x.json:1: patch_size: 0.0001 m makes some 104857600 patches, up to 4096 x 4096 a \
+             polygon; expected at most 20000000",
+        ),
+        (
+            &format!("{{{good}, \"patch_size\": \"2 mm\", \"refine\": {{\"relative_l2\": 0.01}}}}"),
+            "experiments/x.json:1: refine: 0.001 m makes some 41959424 patches, up to 4096 x 2048 a \
+             polygon; expected at most 20000000",
         ),
         (
             &format!("{{{good}, \"stop\": {{\"patch_threshold\": \"110 %\"}}}}"),
@@ -455,4 +460,14 @@ fn a_name_that_would_write_elsewhere_is_refused() {
     fs::copy(project.path("experiments/x.json"), &hidden).unwrap();
     let fault = Plan::read(&hidden, &[], &Preparing::default()).err().unwrap().to_string();
     assert!(fault.contains("the name \".\" names its results; expected letters"), "{fault}");
+}
+
+/// A solution for a picture says if it has stopped before what was asked for.
+#[test]
+fn a_solution_that_stops_early_warns() {
+    let solved = |left| Solved { light: Vec::new(), left, shots: 9 };
+    assert_eq!(solved(0.1).warning(0.1), None);
+    let warning = solved(0.628).warning(0.1).unwrap();
+    let expected = "62.8 % of the light is unshot after 9 shots; expected at most 10.0 %";
+    assert!(warning.starts_with(expected), "{warning}");
 }

@@ -147,7 +147,7 @@ fn shoot_and_update(problem: &Problem, queued: &mut Queued<'_>, memory: &mut Mem
             let leaves = match cast(&problem.space, environment, &ray, emitter.polygon, &mut work) {
                 End::Hit { polygon, distance } => {
                     let piece = pieces[polygon as usize];
-                    if let Some(patch) = environment.patch_of(piece, ray.at(distance)) {
+                    if let Some(patch) = environment.patch_hit(piece, &ray, distance) {
                         patches[patch as usize].form_factor += 1.0;
                     }
                     false

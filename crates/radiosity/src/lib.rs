@@ -23,10 +23,11 @@ mod virtual_walls;
 
 pub use geometry::{Bounds, Ray};
 pub use glam;
-pub use light::{Greatest, Light, Refinement, Wanted, solve};
+pub use light::{Greatest, Light, Refinement, RefinementError, Wanted, solve};
 pub use media::{DepthBits, Medium, optical_depth};
 pub use mesh::{
-    Block, Facets, Grid, LocalEnvironment, Part, Passage, Patch, PatchSize, Side, Space,
+    Block, Facets, Grid, LocalEnvironment, MOST_PATCHES, Part, Passage, Patch, PatchSize, Side,
+    Space, TooManyPatches,
 };
 pub use picture::{
     Camera, Exposure, LARGEST_PICTURE, Mesh, Picture, PictureError, PictureOptions, Shading, Tone,

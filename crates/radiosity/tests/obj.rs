@@ -69,6 +69,7 @@ fn unusual_faces_are_repaired_and_counted() {
         (WarningKind::Concave, 2),
         (WarningKind::SelfCrossing, 1),
         (WarningKind::Duplicate, 1),
+        (WarningKind::Overlap, 2),
     ];
     assert_eq!(counts, expected);
     let lines: Vec<String> = warnings.iter().map(ToString::to_string).collect();

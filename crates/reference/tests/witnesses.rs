@@ -48,12 +48,13 @@ fn a_known_error_is_estimated() {
     assert_eq!(others.error(&exact), witnesses.error(&exact));
 }
 
-/// A scene without light has no error.
+/// Errors are relative to the reflected light: in a scene without light none is small.
 #[test]
-fn a_dark_scene_has_no_error() {
+fn a_dark_scene_has_no_error_of_zero() {
     let dark = Scene::new(&room([1.0; 3]), vec![grey(0.5, 0.0)], vec!["room".to_owned(); 3]);
     let (space, environment) = whole(dark.unwrap().0, 0.5);
     let patches = environment.patches.len();
     let witnesses = Witnesses::new(space, environment, 7, 1);
-    assert_eq!(witnesses.error(&vec![Rgb::ZERO; patches]), Testimony::default());
+    assert!(!witnesses.reflect_light());
+    assert_eq!(witnesses.error(&vec![Rgb::ZERO; patches]).error(), f64::INFINITY);
 }

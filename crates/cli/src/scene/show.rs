@@ -3,22 +3,17 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use lab::OpenScene;
+use lab::{OpenScene, Solved, Stage, Which};
 use radiosity::{
-    Camera, Hemisphere, HemisphereKind, LocalEnvironment, PatchSize, Picture, PictureError,
-    PictureOptions, Rgb, Space, render, solve, studio_light,
+    Camera, LocalEnvironment, PatchSize, Picture, PictureOptions, Rgb, Space, render, studio_light,
 };
 
 use crate::exit::Exit;
 use crate::files::write;
-use crate::steps::Steps;
+use crate::render::solved;
 
 /// The share of the light that may be unshot in a picture.
 const UNSHOT: f64 = 0.1;
-/// The most shots for a picture.
-const MOST_SHOTS: u64 = 5_000;
-/// Rays per shot for a picture.
-const PIXELS: u32 = 4_096;
 
 #[derive(Args)]
 pub struct Arguments {
@@ -44,10 +39,11 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         return Err(Exit::bad_input("--cut-above: not a height; expected metres, such as 2.5"));
     }
     let open = OpenScene::load(&arguments.scene)?;
-    let (space, whole) = meshed(&open);
-    let text = numbers(&open, &whole);
+    let (_, whole) = meshed(&open);
+    let mut text = numbers(&open, &whole);
     if let Some(path) = &arguments.png {
-        let picture = picture(&open, &space, &whole, arguments).map_err(Exit::bad_input)?;
+        let (picture, unshot) = picture(&open, arguments)?;
+        text += &unshot;
         let bytes = picture.encode_png().map_err(Exit::failure)?;
         write(path, &bytes)?;
     }
@@ -92,26 +88,22 @@ fn numbers(open: &OpenScene, whole: &LocalEnvironment) -> String {
     text
 }
 
-fn picture(
-    open: &OpenScene,
-    space: &Space,
-    whole: &LocalEnvironment,
-    arguments: &Arguments,
-) -> Result<Picture, PictureError> {
+fn picture(open: &OpenScene, arguments: &Arguments) -> Result<(Picture, String), Exit> {
     let camera = Camera::overview(&open.scene.bounds, 1200, 800);
     let cut_above = arguments.cut_above.map(|height| height - open.scene.origin.z);
     let options = PictureOptions { cut_above, ..PictureOptions::default() };
     if !arguments.solved {
-        return render(&open.scene, &camera, studio_light(&open.scene), options);
+        let picture = render(&open.scene, &camera, studio_light(&open.scene), options);
+        return Ok((picture.map_err(Exit::bad_input)?, String::new()));
     }
-    let hemisphere = Hemisphere::new(HemisphereKind::Fibonacci, PIXELS, true)
-        .expect("4096 is a number of pixels that a Fibonacci disc can have");
-    let steps = Steps::new("% of the light", (100.0 * (1.0 - UNSHOT)) as usize);
-    let watch = |left: f64| steps.at((100.0 * (1.0 - left)) as u64);
-    let (light, _) = solve(space, whole, &hemisphere, UNSHOT, MOST_SHOTS, watch);
-    steps.end();
+    let stage = Stage::open(&arguments.scene, &Which { set: &[], row: None })?;
+    let Solved { light, left, shots } = solved(&stage, UNSHOT);
+    let whole = &stage.environments()[0];
     let colour = |polygon, point| {
-        whole.patch_at(polygon, point).map_or(Rgb::ZERO, |patch| light.radiosity(whole, patch))
+        whole.patch_at(polygon, point).map_or(Rgb::ZERO, |patch| light[0][patch as usize])
     };
-    render(&space.scene, &camera, colour, options)
+    let picture =
+        render(&stage.space().scene, &camera, colour, options).map_err(Exit::bad_input)?;
+    let unshot = format!("{:.1} % of the light after {shots} shots", 100.0 * left);
+    Ok((picture, format!("{:<16}{unshot}\n", "unshot")))
 }

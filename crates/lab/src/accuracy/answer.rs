@@ -4,9 +4,8 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock};
 
 use config::{Document, Fault, read, read_text};
-use radiosity::glam::DVec3;
-use radiosity::{LocalEnvironment, PatchSize, Polygon, Rgb, Space};
-use reference::{Dense, Patches, Reference};
+use radiosity::{LocalEnvironment, PatchSize, Rgb, Space};
+use reference::{Dense, Difference, NoReference, Patches, Reference};
 use virtwall::Problem;
 
 use crate::files::digest::FileDigest;
@@ -25,9 +24,6 @@ pub const MOST_DENSE: usize = 4_000;
 /// Most cells of a stored reference.
 const MOST_CELLS: f64 = 4_194_304.0;
 
-/// Patches that any host can make.
-const SAFE_PATCHES: usize = 1_000_000;
-
 /// Largest sum of the errors of a patch's form factors in a dense solution.
 const TOLERANCE: f64 = 1e-4;
 
@@ -38,6 +34,15 @@ pub struct Answer {
     pub radiosity: Vec<Rgb>,
     /// Its own error, relative to what is reflected.
     pub error: f64,
+}
+
+impl Answer {
+    /// Checks that it reflects light, to which errors are relative.
+    pub fn check(&self) -> Result<(), String> {
+        let Answer { patches, radiosity, .. } = self;
+        let light = Difference::between(patches, radiosity, radiosity, radiosity);
+        light.map(|_| ()).ok_or_else(|| format!("the reference is dark: {}", NoReference::Dark))
+    }
 }
 
 pub struct Stored {
@@ -70,10 +75,8 @@ impl Stored {
         if cells > MOST_CELLS {
             return refuse(format!("{cells} cells; expected at most {MOST_CELLS}"));
         }
-        let (patches, radiosities) = (some_patches(scene, size), stored.radiosity.len());
-        if patches > (SAFE_PATCHES + 100 * radiosities) as f64 {
-            let message = format!("{reflector} m and {emitter} m make some {patches:.0} patches");
-            return refuse(format!("{message}; expected {radiosities}, the radiosities in it"));
+        if let Err(error) = size.check(scene) {
+            return refuse(error.to_string());
         }
         let space = Space::new(scene.clone(), subject.cells);
         let environment = LocalEnvironment::new(&space, space.grid.whole(), size);
@@ -84,22 +87,12 @@ impl Stored {
             return refuse(message.to_owned());
         }
         let radiosity = stored.radiosity.iter().map(|&colours| Rgb::from(colours)).collect();
-        let answer = Arc::new(Answer { patches, radiosity, error: stored.relative_l2_error });
-        Ok(Stored { answer, digest })
+        let answer = Answer { patches, radiosity, error: stored.relative_l2_error };
+        if let Err(message) = answer.check() {
+            return refuse(message);
+        }
+        Ok(Stored { answer: Arc::new(answer), digest })
     }
-}
-
-/// A low estimate of the number of patches: each has edges up to their size, and backs have none.
-fn some_patches(scene: &radiosity::Scene, size: PatchSize) -> f64 {
-    let of_polygon = |polygon: &Polygon| {
-        let emits = scene.material(polygon).emission != Rgb::ZERO;
-        let size = if emits { size.emitter } else { size.reflector };
-        let corners: Vec<DVec3> = scene.corners(polygon).collect();
-        let next = corners.iter().cycle().skip(1);
-        let edges = corners.iter().zip(next).map(|(corner, next)| corner.distance(*next));
-        (polygon.area / (size * size)).max(edges.fold(0.0, f64::max) / size)
-    };
-    scene.polygons.iter().map(of_polygon).sum()
 }
 
 /// Dense solutions, each found once.
@@ -120,6 +113,7 @@ fn dense(problem: &Problem, patches: Patches) -> Answer {
     let dense = Dense::new(scene, patches, TOLERANCE, parallel::host_threads(), || ());
     let solution = dense.solve();
     let patches = dense.patches().clone();
-    let error = solution.relative_l2_error(&patches);
+    // A dark answer is refused where a run is compared with it.
+    let error = solution.relative_l2_error(&patches).unwrap_or(f64::INFINITY);
     Answer { radiosity: solution.radiosity, patches, error }
 }

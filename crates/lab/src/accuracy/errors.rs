@@ -16,16 +16,22 @@ pub struct ErrorMeasure {
 }
 
 impl ErrorMeasure {
-    pub fn new(answer: &Arc<Answer>, problem: &Problem) -> ErrorMeasure {
+    /// Measures errors against an answer on its own patches.
+    ///
+    /// # Errors
+    /// If the answer reflects no light.
+    pub fn new(answer: &Arc<Answer>, problem: &Problem) -> Result<ErrorMeasure, String> {
+        answer.check()?;
         let own = Patches::of_all(&problem.space, &problem.environments);
         let overlaps = Overlaps::new(&answer.patches, &own);
-        ErrorMeasure { answer: Arc::clone(answer), overlaps }
+        Ok(ErrorMeasure { answer: Arc::clone(answer), overlaps })
     }
 
     /// How far two solutions, as means over the answer's patches, are apart.
     pub fn between(&self, one: &[Rgb], other: &[Rgb]) -> Difference {
         let Answer { patches, radiosity, .. } = &*self.answer;
-        Difference::between(patches, radiosity, one, other)
+        // Some light is reflected, as `new` has checked.
+        Difference::between(patches, radiosity, one, other).unwrap_or_default()
     }
 
     /// How far a solution is from the answer.

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use multicomputer::Machine;
 use radiosity::{HemisphereKind, LocalEnvironment, PatchSize, Rgb, Space};
-use reference::{Difference, Overlaps, Patches, Testimony, Witnesses};
+use reference::{Difference, NoReference, Overlaps, Patches, Testimony, Witnesses};
 use virtwall::{KeptShots, Problem, Selection};
 
 use crate::engine::simulator::{self, Stopped};
@@ -134,7 +134,14 @@ impl<'a> Pilots<'a> {
         let whole = LocalEnvironment::new(&space, space.grid.whole(), size);
         // Independent of the paths of a stored reference, which has the experiment's seed.
         let seed = !base.seed;
-        let witnesses = RefCell::new(Witnesses::new(space, whole, seed, host.threads));
+        let mut witnesses = Witnesses::new(space, whole, seed, host.threads);
+        while !witnesses.reflect_light() && witnesses.paths() < MOST_PATHS {
+            witnesses.double(host.threads);
+        }
+        if !witnesses.reflect_light() {
+            return Err(("accuracy", NoReference::Dark.to_string()));
+        }
+        let witnesses = RefCell::new(witnesses);
         Ok(Pilots {
             base,
             settings: settings.clone(),
@@ -215,7 +222,8 @@ impl<'a> Pilots<'a> {
 
     /// Difference of two solutions, relative to the reflected light of the second.
     pub fn difference(&self, one: &[Rgb], other: &[Rgb]) -> f64 {
-        Difference::between(self.witnesses.borrow().patches(), other, one, other).relative_l2
+        let difference = Difference::between(self.witnesses.borrow().patches(), other, one, other);
+        difference.map_or(f64::INFINITY, |difference| difference.relative_l2)
     }
 
     /// The error of a solution, as witnesses estimate it.

@@ -129,6 +129,34 @@ pub fn carry_out(
     Ok((figures, outcome.radiosity))
 }
 
+/// The most shots of a solution for a picture.
+const MOST_SHOTS: u64 = 100_000;
+
+/// A solution for a picture.
+pub struct Solved {
+    /// The radiosities.
+    pub light: Light,
+    /// The share of the emitted light that is not shot.
+    pub left: f64,
+    /// Shots done.
+    pub shots: u64,
+}
+
+impl Solved {
+    /// A warning, if more light is left than what was asked for.
+    pub fn warning(&self, unshot: f64) -> Option<String> {
+        let Solved { left, shots, .. } = self;
+        (*left > unshot).then(|| {
+            let [left, unshot] = [left, &unshot].map(|share| 100.0 * share);
+            let expected = format!("expected at most {unshot:.1} %");
+            format!(
+                "{left:.1} % of the light is unshot after {shots} shots; {expected}: larger patches \
+                 (\"patch_size\" of a scene file) need fewer shots"
+            )
+        })
+    }
+}
+
 /// Radiosity in W/m², by environment and patch.
 pub type Light = Vec<Vec<Rgb>>;
 
@@ -201,19 +229,18 @@ pub fn stops(
     Ok(stops.take())
 }
 
-const MOST_SHOTS: u64 = 5_000;
-
-/// The light in a problem of one environment when less than the share `unshot` is unshot, or after
-/// [`MOST_SHOTS`]; and the share that is unshot.
-pub fn solved(problem: &Problem, unshot: f64) -> (Light, f64) {
+/// The light in a problem of one environment when at most the share `unshot` is unshot, or after [`MOST_SHOTS`].
+/// Calls `watch` after each shot with the share that is left.
+pub fn solved(problem: &Problem, unshot: f64, watch: impl FnMut(f64)) -> Solved {
     let whole = &problem.environments[0];
-    let (light, _) =
-        radiosity::solve(&problem.space, whole, &problem.hemisphere, unshot, MOST_SHOTS, |_| ());
+    let (light, shots) =
+        radiosity::solve(&problem.space, whole, &problem.hemisphere, unshot, MOST_SHOTS, watch);
     let patches = 0..whole.patches.len() as u32;
     let radiosity = patches.map(|patch| light.radiosity(whole, patch)).collect();
     let emitted = problem.emitted_power().element_sum();
     let left = light.unshot_power().element_sum();
-    (vec![radiosity], if emitted > 0.0 { left / emitted } else { 0.0 })
+    let left = if emitted > 0.0 { left / emitted } else { 0.0 };
+    Solved { light: vec![radiosity], left, shots }
 }
 
 pub fn outcome(run: &Run, point: &Experiment, machine: &Machine) -> Result<Outcome, String> {

@@ -10,7 +10,7 @@ use radiosity::{LocalEnvironment, Space};
 use serde_json::Value;
 use virtwall::{KeptShots, Problem};
 
-use crate::engine::simulator::{self, Light};
+use crate::engine::simulator::{self, Light, Solved};
 use crate::experiment::accuracy;
 use crate::experiment::fields::Experiment;
 use crate::files::digest::FileDigest;
@@ -127,10 +127,10 @@ impl Stage {
         &self.problem.environments
     }
 
-    /// The light when less than this part of it is unshot, or after 5,000 shots; and the part that
-    /// is. The run's, if there is one, has no part in it.
-    pub fn solved(&self, unshot: f64) -> (Light, f64) {
-        simulator::solved(&self.problem, unshot)
+    /// The light when at most the share `unshot` of it is unshot, or after many shots. Calls `watch` after
+    /// each shot with the share that is left. The run's, if there is one, has no part in it.
+    pub fn solved(&self, unshot: f64, watch: impl FnMut(f64)) -> Solved {
+        simulator::solved(&self.problem, unshot, watch)
     }
 
     /// The light of the run at each of these times, in rising order; after its end there is no other.

@@ -7,7 +7,7 @@ use virtwall::{CutScene, Problem, ProblemError, ProblemOptions};
 
 use crate::files::WrongField;
 use crate::host::host_clock::HostClock;
-use crate::open::settings::{Settings, WallMesh};
+use crate::open::settings::{Settings, WallMesh, too_many};
 
 /// Meshes and cuts a scene.
 pub fn problem(scene: &radiosity::Scene, settings: &Settings) -> Result<Arc<Problem>, WrongField> {
@@ -55,6 +55,7 @@ fn cut(scene: &radiosity::Scene, settings: &Settings) -> Result<CutScene, WrongF
             ProblemError::Cells(_) => "cells",
             ProblemError::Cut { .. } => "cut",
             ProblemError::PatchSize(..) => "patch_size",
+            ProblemError::Patches(error) => return too_many(error),
         };
         (field, error.to_string())
     })?;

@@ -1,6 +1,6 @@
 //! How a scene is meshed, cut and lit: by the experiment's fields, else the scene file's, else automatically.
 
-use radiosity::HemisphereKind;
+use radiosity::{HemisphereKind, PatchSize, TooManyPatches};
 use serde::Serialize;
 
 use crate::experiment::fields::{Experiment, LEAST_THRESHOLD, is_default};
@@ -13,9 +13,6 @@ use crate::open::scene::Scene;
 
 /// A patch of a bare OBJ file is at most this share of the scene's diagonal long.
 const BARE_PATCHES: f64 = 1.0 / 50.0;
-
-/// Most patches: more would not fit a usual host's memory.
-const MOST_PATCHES: f64 = 2e7;
 
 /// How a scene is meshed, cut and lit: all that decides the result of a shot. The fields are those of
 /// the experiment; lengths are in metres.
@@ -63,17 +60,15 @@ impl Settings {
         let patch_size = own.map_or(diagonal * BARE_PATCHES, |size| size.value());
         let of_file = file.and_then(|file| file.emitter_patch_size.as_ref());
         let emitters = point.emitter_patch_size.as_ref().or(of_file);
-        let patches = scene.geometry.area() / (patch_size * patch_size);
-        if patches > MOST_PATCHES {
-            let message = format!("{patch_size} m makes some {patches:.0} patches");
-            return Err(("patch_size", format!("{message}; expected at most {MOST_PATCHES}")));
-        }
+        let emitter_patch_size = emitters.map_or(patch_size, |size| size.value());
+        let size = PatchSize { reflector: patch_size, emitter: emitter_patch_size };
+        size.check(&scene.geometry).map_err(too_many)?;
         Ok(Settings {
             scene: point.scene.clone(),
             cut,
             cells,
             patch_size,
-            emitter_patch_size: emitters.map_or(patch_size, |size| size.value()),
+            emitter_patch_size,
             refine: point.refine,
             directions: point.hemisphere.directions,
             pixels: point.hemisphere.pixels,
@@ -84,6 +79,11 @@ impl Settings {
             by_place: point.hemisphere.by_place,
         })
     }
+}
+
+/// The field that asks for too many patches.
+pub fn too_many(error: TooManyPatches) -> WrongField {
+    (if error.emitters { "emitter_patch_size" } else { "patch_size" }, error.to_string())
 }
 
 fn cells_and_cut(point: &Experiment, scene: &Scene) -> Result<(Triple, Triple), WrongField> {

@@ -82,6 +82,10 @@ impl Results {
     /// Writes all files of results, each whole, and then deletes the runs saved one by one,
     /// unless some have failed.
     pub fn write(&self, out: &Path) -> io::Result<()> {
+        if let Some((row, column)) = self.table.not_finite() {
+            let message = format!("run {row}: {column} is not a finite number; nothing is written");
+            return Err(io::Error::other(message));
+        }
         file::make_folder(out)?;
         file::write(&out.join("runs.csv"), &self.table.to_csv()?)?;
         file::write(&out.join("manifest.json"), pretty(&self.manifest)?.as_bytes())?;

@@ -232,7 +232,7 @@ impl Shared<'_> {
         let run = &self.plan.runs[task.run];
         let Some(answer) = self.plan.answer(run, &self.dense) else { return Ok(None) };
         let problem = &self.plan.problems[run.problem].problem;
-        let measure = ErrorMeasure::new(&answer, problem);
+        let measure = ErrorMeasure::new(&answer, problem)?;
         let mut errors = measure.errors(radiosity);
         if run.point.error_causes {
             let machine = &self.plan.machines[run.machine].machine;

@@ -37,6 +37,17 @@ impl Table {
         writer.into_inner().map_err(|error| std::io::Error::other(error.to_string()))
     }
 
+    /// The first cell with a number that is not finite: its row, from 1, and its column.
+    pub fn not_finite(&self) -> Option<(usize, &str)> {
+        let infinite = |cell: &String| {
+            let number = cell.split(' ').next().unwrap_or_default();
+            matches!(number, "NaN" | "inf" | "-inf")
+        };
+        let column = |row: &Vec<String>| row.iter().position(infinite);
+        let (row, column) = (1..).zip(&self.rows).find_map(|(n, row)| Some((n, column(row)?)))?;
+        Some((row, self.columns.get(column).map_or("a column", String::as_str)))
+    }
+
     /// A cell, or one count of a cell of operations; empty if there is no such column.
     pub fn cell<'a>(&'a self, row: &'a [String], column: &str) -> &'a str {
         let [operations, one] = columns::OPERATIONS;

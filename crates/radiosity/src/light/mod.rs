@@ -7,5 +7,5 @@ mod solve; // progressive radiosity without a decomposition
 
 pub use greatest::Greatest;
 pub use light::Light;
-pub use refinement::{Refinement, Wanted};
+pub use refinement::{Refinement, RefinementError, Wanted};
 pub use solve::solve;

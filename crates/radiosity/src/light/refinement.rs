@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use super::solve::solve;
 use crate::geometry::area_and_centroid;
-use crate::mesh::{Block, LocalEnvironment, Patch, PatchSize, Piece, Space};
+use crate::mesh::{Block, LocalEnvironment, Patch, PatchSize, Piece, Space, TooManyPatches};
 use crate::scene::{Rgb, Scene};
 use crate::shoot::{Hemisphere, HemisphereError, HemisphereKind};
 
@@ -30,6 +30,17 @@ pub struct Refinement {
     pub shots: u64,
 }
 
+/// Why a mesh cannot be refined.
+#[derive(Debug, thiserror::Error)]
+pub enum RefinementError {
+    /// None in practice: the hemisphere of the pilot is possible.
+    #[error(transparent)]
+    Hemisphere(#[from] HemisphereError),
+    /// The pilot, or the refined mesh, would have too many patches.
+    #[error(transparent)]
+    Patches(#[from] TooManyPatches),
+}
+
 impl Refinement {
     /// Number of rays of a shot of the pilot solution.
     pub const RAYS: u32 = 1_024;
@@ -47,13 +58,15 @@ impl Refinement {
     /// per new patch first, until the errors add up to at most the wanted one.
     ///
     /// # Errors
-    /// None in practice: the hemisphere of the pilot is possible.
+    /// Too many patches, of the pilot or of the refined mesh.
     pub fn new(
         space: &Space,
         size: PatchSize,
         wanted: Wanted,
-    ) -> Result<Refinement, HemisphereError> {
+    ) -> Result<Refinement, RefinementError> {
+        let coarse = size;
         let size = PatchSize { reflector: size.reflector / 2.0, ..size };
+        size.check(&space.scene)?;
         let pilot = LocalEnvironment::new(space, space.grid.whole(), size);
         let hemisphere = Hemisphere::new(HemisphereKind::Fibonacci, Refinement::RAYS, true)?;
         let (light, shots) =
@@ -70,7 +83,10 @@ impl Refinement {
         let errors: Vec<f64> =
             errors.map(|(error, patch)| if lamp(patch) { 0.0 } else { error }).collect();
         let depths = depths(&errors, budget, wanted.most_halvings);
-        Ok(Refinement { pilot, depths, shots })
+        let refinement = Refinement { pilot, depths, shots };
+        let depth = |polygon, slot: &[DVec3], edges| refinement.depth(polygon, slot, edges);
+        coarse.check_refined(&space.scene, Some(&depth))?;
+        Ok(refinement)
     }
 
     /// Meshes a block of cells with patches of the given size, and smaller ones where needed.

@@ -6,7 +6,7 @@ use super::grid::{Block, Side};
 use super::patch::Patch;
 use super::piece::{Leaf, Piece};
 use super::space::Space;
-use crate::geometry::BoxTree;
+use crate::geometry::{BoxTree, Ray};
 use crate::scene::Rgb;
 
 /// A part of space bounded by virtual interfaces, with the patches in it.
@@ -42,7 +42,33 @@ impl LocalEnvironment {
         }
     }
 
-    /// The patch of a polygon at a point where a ray inside this environment hit its front.
+    /// The patch of a piece whose front a ray hits at a distance.
+    #[inline]
+    pub fn patch_hit(&self, piece: u32, ray: &Ray, distance: f64) -> Option<u32> {
+        let piece = &self.pieces[piece as usize];
+        if piece.is_back() {
+            return None;
+        }
+        let [i, j] = piece.slot_hit(ray, distance);
+        Some(self.slots[(piece.first_slot + j * piece.nu + i) as usize])
+    }
+
+    /// Whether a polygon only touches this environment. A ray hits it in another one.
+    pub(crate) fn only_touches(&self, polygon: u32) -> bool {
+        self.piece(polygon).is_some_and(|piece| self.pieces[piece as usize].touches)
+    }
+
+    /// The side to a neighbour that a ray crosses at a distance or before, to within rounding; `None` if
+    /// there are several, since rounding decides which is first.
+    pub(crate) fn leaves_towards(&self, space: &Space, ray: &Ray, distance: f64) -> Option<Side> {
+        let crosses = |side: &Side| space.grid.crosses(&self.block, *side, ray, distance);
+        let mut sides =
+            Side::ALL.into_iter().filter(|&side| self.has_neighbour(side)).filter(crosses);
+        let side = sides.next()?;
+        sides.next().is_none().then_some(side)
+    }
+
+    /// The patch of a polygon at a point on its front.
     pub fn patch_at(&self, polygon: u32, point: DVec3) -> Option<u32> {
         self.patch_of(self.piece(polygon)?, point)
     }
@@ -58,7 +84,7 @@ impl LocalEnvironment {
         found.ok().map(|piece| piece as u32)
     }
 
-    /// The patch of a piece at a point where a ray hit its front.
+    /// The patch of a piece at a point on its front.
     pub fn patch_of(&self, piece: u32, point: DVec3) -> Option<u32> {
         let piece = &self.pieces[piece as usize];
         if piece.is_back() {

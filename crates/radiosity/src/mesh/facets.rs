@@ -5,6 +5,9 @@ use glam::DVec3;
 use crate::geometry::{Bounds, Ray};
 use crate::scene::Scene;
 
+/// Rounding of positions, as a fraction of the tolerance.
+pub(super) const ROUNDING: f64 = 1e-4;
+
 /// A polygon: its plane and the half-planes of its edges.
 pub(crate) struct Facet {
     pub(crate) normal: DVec3,

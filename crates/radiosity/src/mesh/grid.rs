@@ -32,6 +32,10 @@ impl Side {
     }
 }
 
+/// Rounding of distances, as a fraction of the diagonal of the scene: more than that of rays that are not
+/// nearly parallel to a plane, and too little to change any other result.
+const ROUNDING: f64 = 1e-12;
+
 /// A block of cells: on each axis the first cell and the one after the last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Block {
@@ -76,6 +80,8 @@ pub struct Grid {
     pub(crate) planes: [Vec<f64>; 3],
     /// Cells per metre.
     per_metre: [f64; 3],
+    /// Rounding of a distance, metres: a hit not farther beyond a plane counts as before it.
+    pub(crate) rounding: f64,
     /// Index in `polygons` where the list of each cell starts, and the end of the last list.
     starts: Vec<u32>,
     polygons: Vec<u32>,
@@ -99,7 +105,9 @@ impl Grid {
         let per_metre = planes
             .each_ref()
             .map(|planes| (planes.len() - 1) as f64 / (planes[planes.len() - 1] - planes[0]));
-        let mut grid = Grid { planes, per_metre, starts: Vec::new(), polygons: Vec::new() };
+        let rounding = ROUNDING * scene.bounds.size().length();
+        let (starts, polygons) = (Vec::new(), Vec::new());
+        let mut grid = Grid { planes, per_metre, rounding, starts, polygons };
         let mut pairs: Vec<(u32, u32)> = Vec::new();
         for (id, polygon) in scene.polygons.iter().enumerate() {
             let cells = grid.cells_met(scene, polygon);
@@ -286,6 +294,14 @@ impl Grid {
         }
     }
 
+    /// Whether a ray crosses a side of a block at a distance or before, to within rounding.
+    pub(crate) fn crosses(&self, block: &Block, side: Side, ray: &Ray, distance: f64) -> bool {
+        let Side { axis, upper } = side;
+        let plane = if upper { block.high[axis] } else { block.low[axis] };
+        let ahead = if upper { ray.direction[axis] > 0.0 } else { ray.direction[axis] < 0.0 };
+        ahead && self.crossing(axis, plane, ray) <= distance + self.rounding
+    }
+
     /// The side through which a ray leaves that never enters a block.
     pub fn side_towards(&self, block: &Block, ray: &Ray) -> Side {
         let start = self.cell_of(ray.origin);
@@ -320,8 +336,15 @@ impl<'a> Passage<'a> {
 
     /// Distance at which the ray leaves the current cell.
     #[inline]
-    pub fn exit(&self) -> f64 {
+    fn exit(&self) -> f64 {
         self.next[self.next_axis()]
+    }
+
+    /// Distance up to which a hit belongs to the current cell. A ray that hits a polygon where it leaves
+    /// the cell ends here, whatever the rounding of both distances.
+    #[inline]
+    pub fn reach(&self) -> f64 {
+        self.exit() + self.grid.rounding
     }
 
     /// Moves to the next cell, or returns the side through which the ray leaves the block.

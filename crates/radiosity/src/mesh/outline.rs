@@ -12,7 +12,7 @@ impl LocalEnvironment {
     /// Corners of a patch, counter-clockwise seen from the front, metres: the part of its polygon
     /// inside its slots and this environment. Empty for a patch without area.
     pub fn outline(&self, space: &Space, patch: u32) -> Vec<DVec3> {
-        let Patch { area, polygon, .. } = self.patches[patch as usize];
+        let Patch { centre, area, polygon } = self.patches[patch as usize];
         let Some(piece) = self.piece(polygon).filter(|_| area > 0.0) else { return Vec::new() };
         let piece = &self.pieces[piece as usize];
         let polygon = &space.scene.polygons[polygon as usize];
@@ -26,10 +26,17 @@ impl LocalEnvironment {
         if let Some(&several) = self.leaves.get(patch as usize) {
             return leaf(several);
         }
-        let part = |slot: u32| leaf(Leaf { first: [slot % piece.nu, slot / piece.nu], side: 1 });
-        // Slots outside the polygon have the nearest patch too, but not its area.
-        let slots = 0..piece.nu * piece.nv;
-        let own = slots.filter(|slot| self.slots[(piece.first_slot + slot) as usize] == patch);
+        let part = |slot: [u32; 2]| leaf(Leaf { first: slot, side: 1 });
+        // Its own slot has its centre. After rounding that can be in a neighbour, which has no area of it.
+        let near = |along: DVec3, start: f64, n: u32| {
+            let slot = ((centre.dot(along) - start).max(0.0) as u32).min(n - 1);
+            slot.saturating_sub(1)..(slot + 2).min(n)
+        };
+        let (columns, rows) =
+            (near(piece.u, piece.u0, piece.nu), near(piece.v, piece.v0, piece.nv));
+        let slots = rows.flat_map(|j| columns.clone().map(move |i| [i, j]));
+        let own = slots
+            .filter(|[i, j]| self.slots[(piece.first_slot + j * piece.nu + i) as usize] == patch);
         let off = |outline: &Vec<DVec3>| (area_and_centroid(outline).0 - area).abs();
         own.map(part).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or_default()
     }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::environment::LocalEnvironment;
-use super::meshing::extent;
+use super::shape::extent;
 use super::space::Space;
 use crate::geometry::{Bounds, area_and_centroid, clip_to_half, clip_to_slab};
 

@@ -3,6 +3,7 @@
 use glam::DVec3;
 use serde_json::{Value, json};
 
+use super::render::{PictureError, check_finite};
 use super::tone::{Exposure, Tone, geometric_mean};
 use super::triangles::Mesh;
 use crate::geometry::Bounds;
@@ -22,17 +23,21 @@ impl Mesh<'_> {
     /// Vertices have the attributes `COLOR_0`, the linear brightness that a picture with this
     /// exposure and tone would show (viewers apply the sRGB transfer function), and `_RADIOSITY`,
     /// W/m². Viewers do not light the material again (`KHR_materials_unlit`).
+    ///
+    /// # Errors
+    /// A radiosity that is not finite.
     pub fn to_glb(
         &self,
         light: &[Rgb],
         origin: DVec3,
         exposure: Exposure,
         tone: Tone,
-    ) -> (Vec<u8>, f64) {
+    ) -> Result<(Vec<u8>, f64), PictureError> {
         let middle_grey = match exposure {
             Exposure::Auto => self.middle_grey(light),
             Exposure::MiddleGrey(radiosity) => radiosity,
         };
+        check_finite(light.iter().map(|rgb| rgb.as_vec3()), middle_grey)?;
         let mut file = File::default();
         let positions = self.positions();
         let bounds = Bounds::of(positions.iter().copied());
@@ -49,7 +54,7 @@ impl Mesh<'_> {
         });
         let indices = file.indices(self.triangles().flatten());
         let primitive = json!({ "attributes": attributes, "indices": indices, "material": 0 });
-        (file.whole(&primitive, origin, middle_grey), middle_grey)
+        Ok((file.whole(&primitive, origin, middle_grey), middle_grey))
     }
 
     /// Middle grey of all triangles, weighted by area, W/m².

@@ -42,12 +42,29 @@ pub struct Picture {
     pub middle_grey: f64,
 }
 
-/// A picture size that is not possible.
-#[derive(Debug, thiserror::Error)]
-#[error("picture of {width} x {height} pixels; expected 1 to {LARGEST_PICTURE} either way")]
-pub struct PictureError {
-    width: u32,
-    height: u32,
+/// Why a picture or a mesh cannot be drawn.
+#[derive(Debug, PartialEq, Eq, thiserror::Error)]
+pub enum PictureError {
+    /// A picture size that is not possible.
+    #[error("picture of {width} x {height} pixels; expected 1 to {LARGEST_PICTURE} either way")]
+    Size {
+        /// Pixels in a row.
+        width: u32,
+        /// Rows.
+        height: u32,
+    },
+    /// A radiosity that is NaN, or that a number of 32 bits cannot hold.
+    #[error("a radiosity that is not finite; expected less than 3e38 W/m²")]
+    NotFinite,
+}
+
+/// Checks that radiosities, and the one that is shown as middle grey, are finite in 32 bits.
+pub(crate) fn check_finite(
+    mut light: impl Iterator<Item = Vec3>,
+    middle_grey: f64,
+) -> Result<(), PictureError> {
+    let finite = light.all(|rgb| rgb.is_finite()) && middle_grey.is_finite();
+    if finite { Ok(()) } else { Err(PictureError::NotFinite) }
 }
 
 /// Draws what the camera sees.
@@ -56,7 +73,7 @@ pub struct PictureError {
 /// returns the radiosity, W/m², of a polygon (by index) at a point (local coordinates).
 ///
 /// # Errors
-/// A picture without pixels or with more than 8192 pixels along a side.
+/// A picture without pixels or with more than 8192 pixels along a side, or a radiosity that is not finite.
 pub fn render(
     scene: &Scene,
     camera: &Camera,
@@ -65,7 +82,7 @@ pub fn render(
 ) -> Result<Picture, PictureError> {
     let (width, height) = (camera.width, camera.height);
     if !(1..=LARGEST_PICTURE).contains(&width) || !(1..=LARGEST_PICTURE).contains(&height) {
-        return Err(PictureError { width, height });
+        return Err(PictureError::Size { width, height });
     }
     let mut buffer = ZBuffer::new(camera, SAMPLES);
     buffer.draw(scene, options.cut_above.unwrap_or(f64::INFINITY));
@@ -79,6 +96,7 @@ pub fn render(
         }
         Exposure::MiddleGrey(radiosity) => radiosity,
     };
+    check_finite(samples.iter().flatten().copied(), middle_grey)?;
     let shown = |rgb: Vec3| options.tone.map(rgb.as_dvec3() / middle_grey);
     let rgb = encode_pixels(&samples, width as usize, shown);
     Ok(Picture { width, height, rgb, middle_grey })

@@ -66,9 +66,14 @@ impl<'a> Mesh<'a> {
         &self.vertices.normals
     }
 
-    /// Vertices of the triangles, counter-clockwise seen from the front.
+    /// Vertices of the triangles, counter-clockwise seen from the front. Triangles without area, with
+    /// coordinates of 32 bits as in files, are left out.
     pub fn triangles(&self) -> impl Iterator<Item = [u32; 3]> {
-        self.fans.iter().flatten().flat_map(|fan| triangles(fan))
+        let has_area = |triangle: &[u32; 3]| {
+            let [a, b, c] = triangle.map(|v| self.positions()[v as usize].as_vec3().as_dvec3());
+            (b - a).cross(c - a).length_squared() > 0.0
+        };
+        self.fans.iter().flatten().flat_map(|fan| triangles(fan)).filter(has_area)
     }
 
     /// Radiosity of the vertices from that of the patches, by environment and patch, W/m².
@@ -83,7 +88,8 @@ impl<'a> Mesh<'a> {
                 *area += patch.area;
             }
         }
-        let mut light: Vec<Rgb> = sums.iter().map(|&(sum, area)| sum / area).collect();
+        let mean = |&(sum, area): &(Rgb, f64)| if area > 0.0 { sum / area } else { Rgb::ZERO };
+        let mut light: Vec<Rgb> = sums.iter().map(mean).collect();
         for fan in self.fans.iter().flatten() {
             let Some((&middle, corners)) = fan.split_first() else { continue };
             let corner =
@@ -129,6 +135,7 @@ fn triangles(fan: &[u32]) -> impl Iterator<Item = [u32; 3]> {
 
 /// The mean along the edges between corners. Dividing an edge in two does not change it.
 fn mean_along(corners: impl Iterator<Item = (DVec3, DVec3)> + Clone) -> DVec3 {
+    let first = corners.clone().next();
     let next = corners.clone().cycle().skip(1);
     let (mut sum, mut length) = (DVec3::ZERO, 0.0);
     for ((from, a), (to, b)) in corners.zip(next) {
@@ -136,7 +143,8 @@ fn mean_along(corners: impl Iterator<Item = (DVec3, DVec3)> + Clone) -> DVec3 {
         sum += (a + b) / 2.0 * edge;
         length += edge;
     }
-    sum / length
+    // Without an edge all corners are one point.
+    if length > 0.0 { sum / length } else { first.map_or(DVec3::ZERO, |(_, a)| a) }
 }
 
 /// Barycentric coordinates of a point in the plane of a triangle, or `None` if it has no area.
@@ -188,7 +196,12 @@ impl Vertices {
             }
             fan.push(vertex);
         }
-        fan
+        // Corners closer than a step are one vertex. Fewer than three are a patch that nobody can see.
+        fan.dedup();
+        if fan.len() > 2 && fan.last() == fan.get(1) {
+            fan.pop();
+        }
+        if fan.len() > 3 { fan } else { Fan::new() }
     }
 
     /// Adds vertices that are on the edges of patches to the corners of these patches.

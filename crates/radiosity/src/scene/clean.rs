@@ -1,13 +1,15 @@
 //! Cleans the faces of a file into a scene: local coordinates, welded vertices, convex planar
 //! polygons with positive area, no duplicates.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 use earcut::Earcut;
 use glam::DVec3;
 
 use super::coplanar::share_planes;
 use super::error::{FARTHEST, SceneError};
+use super::overlaps::{order, sort_overlaps};
 use super::scene::{Face, Material, Plane, Polygon, Scene};
 use super::warnings::{WarningKind, Warnings};
 use crate::geometry::Bounds;
@@ -21,8 +23,9 @@ impl Scene {
     /// Coordinates become local to the centre of all corners, and those closer than 1e-9 of the
     /// diagonal become equal. Faces that are not planar (to 1e-6 of their size) or not convex are
     /// divided into triangles. Faces without area, and faces with the same corners and front as an
-    /// earlier one, are dropped. A face of a two-sided material is stored twice, back to back.
-    /// Polygons in the same plane share it to the bit.
+    /// other one, are dropped. A face of a two-sided material is stored twice, back to back.
+    /// Polygons in the same plane share it to the bit. Of those that face the same way and overlap,
+    /// the one that is seen has the lower number, whatever the order of the faces.
     ///
     /// # Errors
     /// An impossible material, a coordinate that is not finite or beyond 1e12 m, an index out of
@@ -41,7 +44,8 @@ impl Scene {
         let mut cleaner = Cleaner {
             vertices: &welded,
             tolerance,
-            seen: BTreeSet::new(),
+            seen: BTreeMap::new(),
+            materials: &materials,
             polygons: Vec::new(),
             warnings: Warnings::default(),
             earcut: Earcut::new(),
@@ -53,13 +57,19 @@ impl Scene {
             let two_sided = materials[face.material as usize].two_sided;
             cleaner.add(face, own, two_sided, || place(faces, index, &objects));
         }
-        let Cleaner { mut polygons, warnings, .. } = cleaner;
+        let Cleaner { mut polygons, mut warnings, .. } = cleaner;
         if polygons.is_empty() {
             let found = format!("no surface: {} faces, none with an area", faces.len());
             return Err(SceneError::Invalid(format!("{found}; expected at least one")));
         }
         share_planes(&mut polygons, tolerance);
         let vertices = keep_used(&welded, &mut polygons);
+        for overlap in sort_overlaps(&mut polygons, &vertices, &materials, tolerance) {
+            warnings.add_area(WarningKind::Overlap, overlap.area, || {
+                let name = |polygon: u32| &objects[polygons[polygon as usize].object as usize];
+                format!("\"{}\" over \"{}\"", name(overlap.front), name(overlap.covered))
+            });
+        }
         let bounds = Bounds::of(vertices.iter().copied());
         let media = Vec::new();
         Ok((Scene { vertices, polygons, materials, objects, origin, bounds, media }, warnings))
@@ -152,8 +162,9 @@ type Pieces = Vec<(Vec<u32>, Plane, f64)>;
 struct Cleaner<'a> {
     vertices: &'a [DVec3],
     tolerance: f64,
-    /// Rings of the polygons so far, each starting at its smallest vertex.
-    seen: BTreeSet<Vec<u32>>,
+    /// Rings of the polygons so far, each starting at its smallest vertex, and their numbers.
+    seen: BTreeMap<Vec<u32>, usize>,
+    materials: &'a [Material],
     polygons: Vec<Polygon>,
     warnings: Warnings,
     earcut: Earcut<f64>,
@@ -192,18 +203,29 @@ impl Cleaner<'_> {
         }
     }
 
-    /// Adds a polygon. Returns false if it exists already.
+    /// Adds a polygon. Returns false if it exists already; the one that is seen is kept.
     fn push(&mut self, face: &Face, mut ring: Vec<u32>, plane: Plane, area: f64) -> bool {
         let mut key = ring.clone();
         let least = (0..key.len()).min_by_key(|&i| key[i]).unwrap_or(0);
         key.rotate_left(least);
-        if !self.seen.insert(key) {
-            return false;
-        }
         ring.shrink_to_fit();
         let (material, object) = (face.material, face.object);
-        self.polygons.push(Polygon { vertices: ring, material, object, plane, area });
-        true
+        let polygon = Polygon { vertices: ring, material, object, plane, area };
+        match self.seen.entry(key) {
+            Entry::Vacant(new) => {
+                new.insert(self.polygons.len());
+                self.polygons.push(polygon);
+                true
+            }
+            Entry::Occupied(old) => {
+                let old = &mut self.polygons[*old.get()];
+                let polygon = Polygon { area: old.area, ..polygon };
+                if order(&polygon, old, self.materials).is_lt() {
+                    *old = polygon;
+                }
+                false
+            }
+        }
     }
 
     fn at(&self, vertex: u32) -> DVec3 {

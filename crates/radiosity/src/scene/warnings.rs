@@ -22,10 +22,12 @@ pub enum WarningKind {
     SelfCrossing,
     /// A face with the same corners and the same front as another one: dropped.
     Duplicate,
+    /// Two faces of one plane that face the same way and overlap: one of them is seen.
+    Overlap,
 }
 
 /// How often one kind of problem occurred, and where first.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Warning {
     /// Kind of problem.
     pub kind: WarningKind,
@@ -33,6 +35,15 @@ pub struct Warning {
     pub count: usize,
     /// Place of the first occurrence.
     pub first: String,
+    /// For overlaps: the area of all of them, m².
+    pub area: f64,
+}
+
+impl Warning {
+    fn add(&mut self, other: &Warning) {
+        self.count += other.count;
+        self.area += other.area;
+    }
 }
 
 impl fmt::Display for Warning {
@@ -46,22 +57,38 @@ impl fmt::Display for Warning {
             WarningKind::Concave => ("concave face", "cut into triangles"),
             WarningKind::SelfCrossing => ("face", "with a boundary that crosses itself"),
             WarningKind::Duplicate => ("duplicated face", "dropped"),
+            WarningKind::Overlap => ("overlap", "of faces in one plane"),
         };
         let plural = if self.count == 1 { "" } else { "s" };
+        if self.kind == WarningKind::Overlap {
+            let seen = "a light is seen before other faces, then the smaller face";
+            let area = match self.area {
+                small if small < 0.01 => format!("{small:.1e}"),
+                area => format!("{area:.4}"),
+            };
+            let what = format!("{what}, {area} m² in all: {seen}");
+            return write!(f, "{} {noun}{plural} {what} (first: {})", self.count, self.first);
+        }
         write!(f, "{} {noun}{plural} {what} (first: {})", self.count, self.first)
     }
 }
 
 /// Warnings of a scene: at most one of each kind, in the order of the kinds.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Warnings(BTreeMap<WarningKind, Warning>);
 
 impl Warnings {
     /// Counts one more occurrence. `place` is called only for the first one of a kind.
     pub fn add(&mut self, kind: WarningKind, place: impl FnOnce() -> String) {
-        let warning =
-            self.0.entry(kind).or_insert_with(|| Warning { kind, count: 0, first: place() });
+        self.add_area(kind, 0.0, place);
+    }
+
+    /// The same for a problem with an area, m².
+    pub fn add_area(&mut self, kind: WarningKind, area: f64, place: impl FnOnce() -> String) {
+        let new = || Warning { kind, count: 0, first: place(), area: 0.0 };
+        let warning = self.0.entry(kind).or_insert_with(new);
         warning.count += 1;
+        warning.area += area;
     }
 
     /// All warnings.
@@ -82,7 +109,7 @@ impl Warnings {
     /// Adds the counts of `others`. Of a kind in both, the place of `self` is kept.
     pub fn and(mut self, others: Warnings) -> Warnings {
         for (kind, other) in others.0 {
-            self.0.entry(kind).and_modify(|w| w.count += other.count).or_insert(other);
+            self.0.entry(kind).and_modify(|w| w.add(&other)).or_insert(other);
         }
         self
     }

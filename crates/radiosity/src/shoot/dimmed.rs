@@ -35,7 +35,8 @@ pub(crate) fn shoot_dimmed(
             End::Hit { polygon, distance } => {
                 work.count(Operation::Hit, 1);
                 let front = space.facets.faces(polygon, &ray);
-                let patch = environment.patch_at(polygon, ray.at(distance)).filter(|_| front);
+                let piece = environment.piece(polygon).filter(|_| front);
+                let patch = piece.and_then(|piece| environment.patch_hit(piece, &ray, distance));
                 (place_of_hit(environment, patch), left)
             }
             End::Leaves(side) if environment.has_neighbour(side) => {

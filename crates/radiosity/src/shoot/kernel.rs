@@ -65,7 +65,9 @@ fn shoot_on<S: Simd>(
     for (bundle, &word) in mask.words().iter().enumerate().filter(|&(_, &word)| word != 0) {
         shot.rays.aim(simd, &hemisphere.bundles, bundle);
         if shot.find_nearest(simd, word) {
-            shot.count(simd, bundle, word);
+            let touching = shot.hits_of_touching();
+            shot.count(simd, bundle, word & !touching);
+            shot.one_by_one(bundle, touching);
         } else {
             shot.one_by_one(bundle, word);
         }
@@ -107,6 +109,13 @@ impl BundleShot<'_> {
             polygons += 1;
             (polygons <= MOST_POLYGONS).then_some(nearest.limit)
         })
+    }
+
+    /// The rays whose nearest polygon only touches the environment. There are hardly any.
+    fn hits_of_touching(&self) -> u64 {
+        let touches = |piece: u32| self.environment.pieces[piece as usize].touches;
+        let touching = self.nearest.hits.iter().filter(|hit| touches(hit.piece));
+        touching.fold(0, |rays, hit| rays | hit.rays)
     }
 
     /// Casts the rays of a bundle one by one.

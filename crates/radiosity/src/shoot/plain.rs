@@ -55,7 +55,8 @@ pub(crate) fn cast_pixel(
     match cast(space, environment, ray, own_polygon, &mut tally.work) {
         End::Hit { polygon, distance } => {
             let front = space.facets.faces(polygon, ray);
-            let patch = environment.patch_at(polygon, ray.at(distance)).filter(|_| front);
+            let piece = environment.piece(polygon).filter(|_| front);
+            let patch = piece.and_then(|piece| environment.patch_hit(piece, ray, distance));
             tally.hit(patch, bundle, bit);
         }
         End::Leaves(side) => tally.leave(side, bundle, bit),
@@ -72,16 +73,14 @@ pub fn cast(
 ) -> End {
     work.count(Operation::Ray, 1);
     let start = space.grid.cell_of(ray.origin);
-    let hit = follow(space, environment, ray, start, |passage| {
+    let end = follow(space, environment, ray, start, |passage| {
         work.count(Operation::CellStep, 1);
         let polygons = passage.polygons();
         work.count(Operation::PolygonTest, polygons.len() as u64);
-        nearest_hit(space, polygons, ray, own_polygon, passage.exit())
+        let others = polygons.iter().copied().filter(|&polygon| polygon != own_polygon);
+        nearest_hit(space, environment, others, ray, passage.reach())
     });
-    match hit {
-        Ok((polygon, distance)) => End::Hit { polygon, distance },
-        Err(side) => End::Leaves(side),
-    }
+    end.unwrap_or_else(End::Leaves)
 }
 
 /// Follows a ray from cell `start` through an environment until `search`, called in each cell, finds
@@ -105,30 +104,34 @@ pub(crate) fn follow<T>(
     }
 }
 
-/// The nearest polygon that a ray hits inside a cell. At equal distances, fronts precede backs,
-/// then lower indices precede, so that each point of coplanar surfaces has one owner.
+/// How a ray ends inside a cell: at the nearest polygon, not farther away than `reach`. At equal
+/// distances, fronts precede backs, then lower indices precede, so that each point of coplanar
+/// surfaces has one owner. If this polygon only touches the environment, the ray leaves towards it.
 #[inline]
 fn nearest_hit(
     space: &Space,
-    polygons: &[u32],
+    environment: &LocalEnvironment,
+    polygons: impl Iterator<Item = u32>,
     ray: &Ray,
-    own_polygon: u32,
-    exit: f64,
-) -> Option<(u32, f64)> {
-    let mut nearest: Option<(u32, f64)> = None;
-    for &polygon in polygons {
-        if polygon == own_polygon {
+    reach: f64,
+) -> Option<End> {
+    let mut nearest: Option<(u32, f64, Option<Side>)> = None;
+    for polygon in polygons {
+        let limit = nearest.map_or(reach, |(_, distance, _)| distance);
+        let Some(distance) = space.facets.hit(polygon, ray, limit) else { continue };
+        let touches = environment.only_touches(polygon);
+        let side = if touches { environment.leaves_towards(space, ray, distance) } else { None };
+        if touches && side.is_none() {
             continue;
         }
-        let limit = nearest.map_or(exit, |(_, distance)| distance);
-        let Some(distance) = space.facets.hit(polygon, ray, limit) else { continue };
-        let replaces = nearest.is_none_or(|(other, other_distance)| {
+        let replaces = nearest.is_none_or(|(other, other_distance, _)| {
             distance < other_distance
                 || (space.facets.faces(polygon, ray) && !space.facets.faces(other, ray))
         });
         if replaces {
-            nearest = Some((polygon, distance));
+            nearest = Some((polygon, distance, side));
         }
     }
-    nearest
+    let (polygon, distance, side) = nearest?;
+    Some(side.map_or(End::Hit { polygon, distance }, End::Leaves))
 }

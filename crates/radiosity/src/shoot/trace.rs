@@ -83,11 +83,13 @@ pub fn trace(
             let (place, listed) = (space.grid.index(passage.cell) as u32, passage.polygons());
             touch(Record::Cell { place, polygons: listed.len() as u32 });
             let others = listed.iter().copied().filter(|&polygon| polygon != emitter.polygon);
-            nearest_hit(space, others, &ray, passage.exit(), &mut touch)
+            nearest_hit(space, environment, others, &ray, passage.reach(), &mut touch)
         });
         match hit {
             Ok((polygon, distance)) => {
-                if let Some(patch) = environment.patch_at(polygon, ray.at(distance)) {
+                let piece = environment.piece(polygon);
+                let patch = piece.and_then(|piece| environment.patch_hit(piece, &ray, distance));
+                if let Some(patch) = patch {
                     touch(Record::Hit { polygon, patch });
                 }
             }
@@ -100,22 +102,25 @@ pub fn trace(
     }
 }
 
-/// The nearest polygon of a cell that a ray hits before `exit`, any one of coplanar ones.
+/// The nearest polygon of a cell that a ray hits within `reach`, any one of coplanar ones.
 fn nearest_hit(
     space: &Space,
+    environment: &LocalEnvironment,
     polygons: impl Iterator<Item = u32>,
     ray: &Ray,
-    exit: f64,
+    reach: f64,
     touch: &mut impl FnMut(Record),
 ) -> Option<(u32, f64)> {
     let mut nearest: Option<(u32, f64)> = None;
     for polygon in polygons {
         touch(Record::Plane(polygon));
-        let limit = nearest.map_or(exit, |(_, distance)| distance);
+        let limit = nearest.map_or(reach, |(_, distance)| distance);
         let Some(distance) = space.facets.meets_plane(polygon, ray, limit) else { continue };
         let edges = space.facets.edges_tested(polygon, ray.at(distance));
         touch(Record::Edges { polygon, edges });
-        if let Some(distance) = space.facets.hit(polygon, ray, limit) {
+        if let Some(distance) = space.facets.hit(polygon, ray, limit)
+            && !environment.only_touches(polygon)
+        {
             nearest = Some((polygon, distance));
         }
     }

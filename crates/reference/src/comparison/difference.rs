@@ -56,20 +56,23 @@ impl Overlaps {
 }
 
 impl Difference {
-    /// The difference between two solutions on the patches of a reference.
-    pub fn between(patches: &Patches, reference: &[Rgb], one: &[Rgb], other: &[Rgb]) -> Difference {
+    /// The difference between two solutions on the patches of a reference; `None` if the reference reflects
+    /// nothing.
+    pub fn between(
+        patches: &Patches,
+        reference: &[Rgb],
+        one: &[Rgb],
+        other: &[Rgb],
+    ) -> Option<Difference> {
         let light = patches.reflected_square(reference);
         let differences = || one.iter().zip(other).map(|(&one, &other)| one - other);
         let area: f64 = 3.0 * patches.areas.iter().sum::<f64>();
         let there = differences().zip(&patches.areas).filter(|&(_, &area)| area > 0.0);
         let greatest = there.map(|(d, _)| d.abs().max_element()).fold(0.0, f64::max);
-        if light <= 0.0 {
-            return Difference::default();
-        }
-        Difference {
+        (light > 0.0).then(|| Difference {
             relative_l2: (patches.square(differences()) / light).sqrt(),
             maximum: greatest / (light / area).sqrt(),
-        }
+        })
     }
 }
 

@@ -1,5 +1,6 @@
 //! The file format of a reference solution.
 
+use radiosity::Rgb;
 use serde::{Deserialize, Serialize};
 
 use crate::solutions::dense::Solution;
@@ -60,21 +61,44 @@ pub enum Method {
     },
 }
 
+/// Why a solution can't be a reference.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NoReference {
+    /// Errors are relative to the light that is reflected.
+    #[error("no light is reflected; expected some, since errors are relative to it")]
+    Dark,
+    /// A radiosity or an error is NaN or infinite.
+    #[error("patch {0} has a radiosity or an error that is not finite; expected finite numbers")]
+    NotFinite(usize),
+}
+
 impl Reference {
     /// The reference for a solution on the given patches.
-    pub fn new(subject: Subject, patches: &Patches, solution: &Solution) -> Reference {
+    ///
+    /// # Errors
+    /// If the solution reflects nothing, or if a number is not finite.
+    pub fn new(
+        subject: Subject,
+        patches: &Patches,
+        solution: &Solution,
+    ) -> Result<Reference, NoReference> {
+        let finite = |(radiosity, error): (&Rgb, &Rgb)| radiosity.is_finite() && error.is_finite();
+        if let Some(patch) = solution.radiosity.iter().zip(&solution.error).position(|p| !finite(p))
+        {
+            return Err(NoReference::NotFinite(patch));
+        }
         let errors: Vec<[f64; 3]> = solution.error.iter().map(|c| c.to_array()).collect();
         let both = solution.radiosity.iter().map(|c| c.to_array()).zip(&errors);
         let shortened = |(radiosity, error): ([f64; 3], &[f64; 3])| {
             [0, 1, 2].map(|colour| rounded(radiosity[colour], error[colour]))
         };
         let whole = |error: &[f64; 3]| error.map(|error| rounded(error, error));
-        Reference {
+        Ok(Reference {
             subject,
-            relative_l2_error: solution.relative_l2_error(patches),
+            relative_l2_error: solution.relative_l2_error(patches).ok_or(NoReference::Dark)?,
             radiosity: both.map(shortened).collect(),
             error: errors.iter().map(whole).collect(),
-        }
+        })
     }
 }
 

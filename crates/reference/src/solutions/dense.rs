@@ -27,11 +27,11 @@ pub struct Solution {
 
 impl Solution {
     /// The error relative to the reflected radiosity (radiosity less emission), both as area-weighted root
-    /// mean squares over all patches and colours.
-    pub fn relative_l2_error(&self, patches: &Patches) -> f64 {
+    /// mean squares over all patches and colours; `None` if nothing is reflected.
+    pub fn relative_l2_error(&self, patches: &Patches) -> Option<f64> {
         let light = patches.reflected_square(&self.radiosity);
         let error = patches.square(self.error.iter().copied());
-        if light > 0.0 { (error / light).sqrt() } else { 0.0 }
+        (light > 0.0).then(|| (error / light).sqrt())
     }
 }
 

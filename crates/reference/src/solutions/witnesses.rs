@@ -101,13 +101,18 @@ impl Witnesses {
         self.light = self.square(&dark).square;
     }
 
-    /// The error of a solution, given as means over the patches, W/m².
+    /// The error of a solution, given as means over the patches, W/m²; infinite if no path reflects light.
     pub fn error(&self, means: &[Rgb]) -> Testimony {
         let Testimony { square, deviation } = self.square(means);
-        match self.light > 0.0 {
+        match self.reflect_light() {
             true => Testimony { square: square / self.light, deviation: deviation / self.light },
-            false => Testimony::default(),
+            false => Testimony { square: f64::INFINITY, deviation: 0.0 },
         }
+    }
+
+    /// Whether the paths found light that is reflected, to which errors are relative.
+    pub fn reflect_light(&self) -> bool {
+        self.light > 0.0
     }
 
     /// The square of the error of a solution, integrated over area, with its standard error by the

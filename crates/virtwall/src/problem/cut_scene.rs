@@ -1,8 +1,8 @@
 //! A scene in its grid, cut into local environments that are not meshed yet.
 
 use radiosity::{
-    DepthBits, Hemisphere, HemisphereError, LocalEnvironment, PatchSize, Refinement, Scene, Space,
-    Wanted,
+    DepthBits, Hemisphere, LocalEnvironment, PatchSize, Refinement, RefinementError, Scene, Space,
+    TooManyPatches, Wanted,
 };
 use thiserror::Error;
 
@@ -40,6 +40,9 @@ pub enum ProblemError {
     /// A size that no quad-tree can reach.
     #[error("a patch size of {0} m; expected a positive length of at least {1} m for this scene")]
     PatchSize(f64, f64),
+    /// A size that makes too many patches.
+    #[error(transparent)]
+    Patches(#[from] TooManyPatches),
 }
 
 /// The most cells of a grid: a cell's index fits 32 bits, and their table fits memory.
@@ -74,6 +77,7 @@ impl CutScene {
                 return Err(ProblemError::PatchSize(size, least));
             }
         }
+        patch_size.check(&scene)?;
         let space = Space::new(scene, cells);
         let decomposition = Decomposition::new(cells, cut);
         Ok(CutScene { space, decomposition, patch_size, hemisphere, refinement: None })
@@ -83,7 +87,7 @@ impl CutScene {
     ///
     /// # Errors
     /// Those of [`Refinement::new`].
-    pub fn refined(self, wanted: Wanted) -> Result<CutScene, HemisphereError> {
+    pub fn refined(self, wanted: Wanted) -> Result<CutScene, RefinementError> {
         let refinement = Refinement::new(&self.space, self.patch_size, wanted)?;
         Ok(CutScene { refinement: Some(refinement), ..self })
     }

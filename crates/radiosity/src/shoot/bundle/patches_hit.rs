@@ -40,8 +40,8 @@ pub(crate) fn find_patches<S: Simd>(
     }
 }
 
-/// The slots in which the rays of a chunk hit a piece, computed as in
-/// [`LocalEnvironment::patch_at`]. Slots are integers, which f64 represents exactly.
+/// The slots in which the rays of a chunk hit a piece, as [`Piece::slot_hit`] finds them. Slots are integers,
+/// which f64 represents exactly.
 #[inline(always)]
 fn slots<S: Simd>(
     simd: S,
@@ -51,18 +51,35 @@ fn slots<S: Simd>(
     piece: &Piece,
 ) -> f64x8<S> {
     let distance = nearest.distance[chunk].load(simd);
+    let mut direction = [distance; 3];
     let mut point = [distance; 3];
-    for (axis, point) in point.iter_mut().enumerate() {
-        *point = rays.origin[axis] + rays.direction[axis][chunk].load(simd) * distance;
+    for axis in 0..3 {
+        direction[axis] = rays.direction[axis][chunk].load(simd);
+        point[axis] = rays.origin[axis] + direction[axis] * distance;
     }
-    let i = slot(point, piece.u, piece.u0, piece.nu);
-    let j = slot(point, piece.v, piece.v0, piece.nv);
+    let [u_rounding, v_rounding] = piece.rounding;
+    let i = slot(point, direction, piece.u, (piece.u0, piece.nu, u_rounding));
+    let j = slot(point, direction, piece.v, (piece.v0, piece.nv, v_rounding));
     f64::from(piece.first_slot) + (j * f64::from(piece.nu) + i)
 }
 
 /// The slot of points along one direction.
 #[inline(always)]
-fn slot<S: Simd>([x, y, z]: [f64x8<S>; 3], along: DVec3, start: f64, n: u32) -> f64x8<S> {
-    let along = x * along.x + y * along.y + z * along.z - start;
-    along.max(0.0).floor().min(f64::from(n - 1))
+fn slot<S: Simd>(
+    point: [f64x8<S>; 3],
+    direction: [f64x8<S>; 3],
+    axis: DVec3,
+    (start, n, rounding): (f64, u32, f64),
+) -> f64x8<S> {
+    let along = |[x, y, z]: [f64x8<S>; 3]| x * axis.x + y * axis.y + z * axis.z;
+    let place = (along(point) - start).max(0.0);
+    let border = (place + 0.5).floor();
+    let mut slot = place.floor();
+    let off = place - border;
+    let near = off.max(-off).simd_le(rounding);
+    if !near.all_false() {
+        let rising = along(direction).simd_gt(rounding);
+        slot = near.select(rising.select(border - 1.0, border), slot);
+    }
+    slot.max(0.0).min(f64::from(n - 1))
 }

@@ -83,7 +83,9 @@ impl<'a> Walk<'a> {
                 for group in 0..self.here.len() {
                     let group = self.here[group];
                     let ahead = group.ahead.map(|plane| self.view.planes[plane as usize]);
-                    let crossings = next_crossings(simd, rays, nearest, group.rays, ahead);
+                    let rounding = self.view.grid.rounding;
+                    let crossings =
+                        next_crossings(simd, rays, nearest, group.rays, ahead, rounding);
                     self.step(&course, group, crossings, found, &mut walked);
                 }
                 self.here.clear();
@@ -180,7 +182,7 @@ impl Course {
 }
 
 /// What rays in a cell do next, with the next planes at coordinates `ahead` from the emitter: rays
-/// that reach their hit first, rays that cross x first, and rays that cross y before z. Of equal
+/// that reach their hit first, or within `rounding`, rays that cross x first, and rays that cross y before z. Of equal
 /// crossings, the lower axis is first.
 #[inline(always)]
 fn next_crossings<S: Simd>(
@@ -189,6 +191,7 @@ fn next_crossings<S: Simd>(
     nearest: &Nearest,
     group: u64,
     ahead: [f64; 3],
+    rounding: f64,
 ) -> [u64; 3] {
     let mut found = [0; 3];
     for chunk in (0..CHUNKS).filter(|&chunk| of_chunk(group, chunk) != 0) {
@@ -197,7 +200,7 @@ fn next_crossings<S: Simd>(
         let z = ahead[2] * rays.inverse[2][chunk].load(simd);
         let y_or_z = y.min(z);
         let first = x.min(y_or_z);
-        let there = nearest.distance[chunk].load(simd).simd_le(first);
+        let there = nearest.distance[chunk].load(simd).simd_le(first + rounding);
         for (found, mask) in found.iter_mut().zip([there, x.simd_le(y_or_z), y.simd_le(z)]) {
             *found |= mask.to_bitmask() << (chunk * LANES);
         }
