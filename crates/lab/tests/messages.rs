@@ -44,7 +44,7 @@ fn experiments_are_refused_with_place_value_and_expectation() {
         (
             &format!("{{{good}, \"stop\": {{\"every\": 1}}}}"),
             "experiments/x.json:1: stop.every: unknown field \"every\" (there are: \
-             patch_threshold, energy_threshold, collect_every)",
+             patch_threshold, energy_threshold, collect_every, shots_without_progress)",
         ),
         (
             &format!("{{{good},\n \"hemisphere\": {{\"pixels\":\n \"many\"}}}}"),
