@@ -58,14 +58,13 @@ impl LocalEnvironment {
         self.piece(polygon).is_some_and(|piece| self.pieces[piece as usize].touches)
     }
 
-    /// The side to a neighbour that a ray crosses at a distance or before, to within rounding; `None` if
-    /// there are several, since rounding decides which is first.
-    pub(crate) fn leaves_towards(&self, space: &Space, ray: &Ray, distance: f64) -> Option<Side> {
-        let crosses = |side: &Side| space.grid.crosses(&self.block, *side, ray, distance);
-        let mut sides =
-            Side::ALL.into_iter().filter(|&side| self.has_neighbour(side)).filter(crosses);
-        let side = sides.next()?;
-        sides.next().is_none().then_some(side)
+    /// The first side to a neighbour that a ray crosses at a distance or before, to within rounding.
+    pub(crate) fn side_crossed(&self, space: &Space, ray: &Ray, distance: f64) -> Option<Side> {
+        let sides = Side::ALL.into_iter().filter(|&side| self.has_neighbour(side));
+        let crossed = sides
+            .filter_map(|side| Some((space.grid.crosses(&self.block, side, ray, distance)?, side)));
+        let first = crossed.min_by(|(one, _), (other, _)| one.total_cmp(other))?;
+        Some(first.1)
     }
 
     /// The patch of a polygon at a point on its front.

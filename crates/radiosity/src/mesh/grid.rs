@@ -294,12 +294,19 @@ impl Grid {
         }
     }
 
-    /// Whether a ray crosses a side of a block at a distance or before, to within rounding.
-    pub(crate) fn crosses(&self, block: &Block, side: Side, ray: &Ray, distance: f64) -> bool {
-        let Side { axis, upper } = side;
+    /// Distance at which a ray leaves a block through a side, if at most `distance`, to within rounding.
+    pub(crate) fn crosses(
+        &self,
+        block: &Block,
+        Side { axis, upper }: Side,
+        ray: &Ray,
+        distance: f64,
+    ) -> Option<f64> {
         let plane = if upper { block.high[axis] } else { block.low[axis] };
         let ahead = if upper { ray.direction[axis] > 0.0 } else { ray.direction[axis] < 0.0 };
-        ahead && self.crossing(axis, plane, ray) <= distance + self.rounding
+        ahead
+            .then(|| self.crossing(axis, plane, ray))
+            .filter(|&crossing| crossing <= distance + self.rounding)
     }
 
     /// The side through which a ray leaves that never enters a block.

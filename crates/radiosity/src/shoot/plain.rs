@@ -106,7 +106,8 @@ pub(crate) fn follow<T>(
 
 /// How a ray ends inside a cell: at the nearest polygon, not farther away than `reach`. At equal
 /// distances, fronts precede backs, then lower indices precede, so that each point of coplanar
-/// surfaces has one owner. If this polygon only touches the environment, the ray leaves towards it.
+/// surfaces has one owner. If this polygon only touches the environment, the ray leaves towards it,
+/// unless it runs along the side.
 #[inline]
 fn nearest_hit(
     space: &Space,
@@ -120,10 +121,7 @@ fn nearest_hit(
         let limit = nearest.map_or(reach, |(_, distance, _)| distance);
         let Some(distance) = space.facets.hit(polygon, ray, limit) else { continue };
         let touches = environment.only_touches(polygon);
-        let side = if touches { environment.leaves_towards(space, ray, distance) } else { None };
-        if touches && side.is_none() {
-            continue;
-        }
+        let side = if touches { environment.side_crossed(space, ray, distance) } else { None };
         let replaces = nearest.is_none_or(|(other, other_distance, _)| {
             distance < other_distance
                 || (space.facets.faces(polygon, ray) && !space.facets.faces(other, ray))
