@@ -8,7 +8,7 @@ use config::{Dimension, parse};
 use lab::{Endings, HostClock, On, Options, Plan, Preparing, Results, ShotFiles, Traces, Viewing};
 use traces::{Format, Sample};
 
-use crate::exit::{Exit, print};
+use crate::exit::{Exit, print, print_warnings};
 use crate::files::make_folder;
 use crate::live;
 use crate::progress::{Pilots, Progress};
@@ -62,7 +62,7 @@ pub struct Arguments {
     viewer: Viewing,
     #[command(flatten)]
     live: live::Serving,
-    /// Print only errors: no progress, no table
+    /// Print only errors: no warnings, no progress, no table
     #[arg(long, short)]
     quiet: bool,
 }
@@ -114,6 +114,9 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let preparing = Preparing { threads, memory, finding: true, on_pilot: &on_pilot };
     let plan = Arc::new(Plan::read(&arguments.file, &set, &preparing)?);
     pilots.end();
+    if !arguments.quiet {
+        print_warnings(&plan.warnings);
+    }
     arguments.viewer.check(&plan).map_err(Exit::bad_input)?;
     let default = || PathBuf::from("results").join(&plan.name);
     let out = arguments.out.clone().unwrap_or_else(default);

@@ -21,7 +21,7 @@ pub use experiment::schema::experiment_schema;
 pub use files::file::write as write_file;
 pub use host::host_clock::HostClock;
 pub use host::host_memory::half_of_free_memory;
-pub use inspect::check::check;
+pub use inspect::check::{Checked, check};
 pub use inspect::stage::{Stage, StagedRun, Which};
 pub use inspect::trials::Trials;
 pub use open::machine_file::MachineFile;

@@ -169,7 +169,7 @@ fn a_gltf_file_contains_mesh_radiosities_and_colours() {
         let lit = mesh.light(&radiosity);
         let exposure = Exposure::MiddleGrey(5.0);
         let origin = space.scene.origin;
-        let (bytes, middle) = mesh.to_glb(&lit, origin, exposure, Tone::Reinhard);
+        let (bytes, middle) = mesh.to_glb(&lit, origin, space.scene.up, exposure, Tone::Reinhard);
         assert_eq!(middle, 5.0);
         let file = gltf::Gltf::from_slice(&bytes).unwrap();
         let blob = file.blob.as_deref().unwrap();

@@ -75,7 +75,7 @@ fn backs_are_invisible() {
 
 #[test]
 fn polygons_above_the_cut_are_omitted() {
-    let cut_above = Some(0.0);
+    let cut_above = Some((DVec3::Z, 0.0));
     let picture = draw(&squares(true), PictureOptions { cut_above, ..Default::default() });
     assert_eq!(pixel(&picture, 28, 20), RED);
 }
@@ -106,7 +106,7 @@ fn a_camera_inside_a_scene_sees_what_is_ahead() {
 #[test]
 fn an_overview_just_contains_the_scene() {
     let scene = squares(true);
-    let camera = Camera::overview(&scene.bounds, 300, 200);
+    let camera = Camera::overview(&scene.bounds, scene.up, 300, 200);
     let picture = render(&scene, &camera, |_, _| Rgb::ONE, PictureOptions::default()).unwrap();
     let seen: Vec<(usize, usize)> = (0..300 * 200)
         .map(|i| (i % 300, i / 300))

@@ -4,12 +4,14 @@ use std::path::PathBuf;
 
 use clap::Args;
 use lab::OpenScene;
+use radiosity::glam::DVec3;
 use radiosity::{
     Camera, Hemisphere, HemisphereKind, LocalEnvironment, PatchSize, Picture, PictureError,
     PictureOptions, Rgb, Space, render, solve, studio_light,
 };
 
-use crate::exit::Exit;
+use crate::arguments::direction;
+use crate::exit::{Exit, print_warnings};
 use crate::files::write;
 use crate::steps::Steps;
 
@@ -27,8 +29,11 @@ pub struct Arguments {
     /// Draw a picture to this PNG file
     #[arg(long, value_name = "OUT")]
     png: Option<PathBuf>,
+    /// Direction that is up in the picture [default: as the scene description says, else 0,0,1]
+    #[arg(long, value_name = "X,Y,Z", value_parser = direction, allow_hyphen_values = true)]
+    up: Option<DVec3>,
     /// Leave out of the picture what is above this height, in metres
-    #[arg(long, value_name = "Z", allow_hyphen_values = true)]
+    #[arg(long, value_name = "HEIGHT", allow_hyphen_values = true)]
     cut_above: Option<f64>,
     /// Show materials and lights without solving [default]
     #[arg(long, conflicts_with = "solved")]
@@ -44,6 +49,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         return Err(Exit::bad_input("--cut-above: not a height; expected metres, such as 2.5"));
     }
     let open = OpenScene::load(&arguments.scene)?;
+    print_warnings(open.all_warnings());
     let (space, whole) = meshed(&open);
     let text = numbers(&open, &whole);
     if let Some(path) = &arguments.png {
@@ -88,7 +94,6 @@ fn numbers(open: &OpenScene, whole: &LocalEnvironment) -> String {
         let [min, max] = [medium.bounds.min, medium.bounds.max].map(world);
         line("medium", format!("{min} to {max} m absorbs {} /m", medium.absorption));
     }
-    open.warnings.iter().for_each(|warning| line("warning", warning.clone()));
     text
 }
 
@@ -98,8 +103,9 @@ fn picture(
     whole: &LocalEnvironment,
     arguments: &Arguments,
 ) -> Result<Picture, PictureError> {
-    let camera = Camera::overview(&open.scene.bounds, 1200, 800);
-    let cut_above = arguments.cut_above.map(|height| height - open.scene.origin.z);
+    let up = arguments.up.unwrap_or(open.scene.up);
+    let camera = Camera::overview(&open.scene.bounds, up, 1200, 800);
+    let cut_above = arguments.cut_above.map(|height| (up, height - open.scene.origin.dot(up)));
     let options = PictureOptions { cut_above, ..PictureOptions::default() };
     if !arguments.solved {
         return render(&open.scene, &camera, studio_light(&open.scene), options);

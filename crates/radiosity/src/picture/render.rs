@@ -25,8 +25,8 @@ pub struct PictureOptions {
     pub exposure: Exposure,
     /// How brightness is limited to white.
     pub tone: Tone,
-    /// Omits everything above this height (z, local, metres), to show one floor.
-    pub cut_above: Option<f64>,
+    /// Omits everything above this local height, metres, along a unit vector, to show one floor.
+    pub cut_above: Option<(DVec3, f64)>,
 }
 
 /// An sRGB picture with eight bits per component.
@@ -68,7 +68,8 @@ pub fn render(
         return Err(PictureError { width, height });
     }
     let mut buffer = ZBuffer::new(camera, SAMPLES);
-    buffer.draw(scene, options.cut_above.unwrap_or(f64::INFINITY));
+    let (up, highest) = options.cut_above.unwrap_or((DVec3::Z, f64::INFINITY));
+    buffer.draw(scene, up, highest);
     let samples: Vec<Sample> = buffer
         .seen()
         .map(|seen| seen.map(|(polygon, point)| colour(polygon, point).as_vec3()))

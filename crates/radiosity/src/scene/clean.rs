@@ -61,8 +61,9 @@ impl Scene {
         share_planes(&mut polygons, tolerance);
         let vertices = keep_used(&welded, &mut polygons);
         let bounds = Bounds::of(vertices.iter().copied());
-        let media = Vec::new();
-        Ok((Scene { vertices, polygons, materials, objects, origin, bounds, media }, warnings))
+        let (up, media) = (DVec3::Z, Vec::new());
+        let scene = Scene { vertices, polygons, materials, objects, origin, bounds, up, media };
+        Ok((scene, warnings))
     }
 }
 

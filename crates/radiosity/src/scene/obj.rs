@@ -1,23 +1,20 @@
-//! Wavefront OBJ files, read with tobj.
-//!
-//! Used are `v`, `f`, `o`, `g`, `usemtl` and `mtllib`. All other lines are removed before tobj
-//! reads the text: it rejects files for errors that do not matter here, such as colours of only
-//! some vertices or a wrong index of a texture coordinate.
+//! Wavefront OBJ files. Used are `v`, `f`, `o`, `g`, `usemtl` and `mtllib`; all else is ignored.
 
-use std::cell::RefCell;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::io::Cursor;
-use std::path::Path;
-use std::{fs, io};
+use std::io;
+use std::path::{Path, PathBuf};
 
 use glam::DVec3;
-use tobj::{LoadError, LoadOptions, Model};
 
 use super::error::{FARTHEST, SceneError};
-use super::mtl::Library;
-use super::scene::{Face, Material, Scene};
-use super::text;
+use super::mtl::{Library, MtlMaterial};
+use super::scene::{Face, Scene};
+use super::text::{self, Reader, read_regular_file};
 use super::warnings::{WarningKind, Warnings};
+
+/// Name of the object of faces before the first `o` or `g`.
+const UNNAMED: &str = "unnamed_object";
 
 /// Reads a scene from an OBJ file and its material files, whose paths are relative to the OBJ file.
 ///
@@ -28,7 +25,7 @@ use super::warnings::{WarningKind, Warnings};
 /// A file that cannot be read or has invalid content. The message names file, line and value, and
 /// states what was expected.
 pub fn load_obj(path: &Path) -> Result<(Scene, Warnings), SceneError> {
-    load_obj_from(path, &|path| fs::read(path))
+    load_obj_from(path, &read_regular_file)
 }
 
 /// Like [`load_obj`], but reads files through `reader`.
@@ -39,73 +36,197 @@ pub fn load_obj_from(
     path: &Path,
     reader: &dyn Fn(&Path) -> io::Result<Vec<u8>>,
 ) -> Result<(Scene, Warnings), SceneError> {
-    let text = text::read(path, reader)
-        .map_err(|source| SceneError::Unreadable { path: path.to_owned(), source })?;
-    let text = relevant_lines(&text);
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let library = RefCell::new(Library::default());
-
-    let mut bytes = Cursor::new(text.as_bytes());
-    let loaded = tobj::load_obj_buf(&mut bytes, &LoadOptions::default(), |name| {
-        library.borrow_mut().load(&folder.join(name), reader)
-    });
-    let mut library = library.into_inner();
-    if let Some(error) = library.error {
-        return Err(error);
-    }
-    let (models, materials) =
-        loaded.map_err(|error| diagnose(path, &text, bytes.position(), error))?;
-    let materials = materials.unwrap_or_default();
-    let mut materials: Vec<Material> = materials.iter().map(|m| library.material(m)).collect();
-
-    let Faces { faces, objects, warnings } = Faces::of(&models, &materials, &text);
-    if warnings.count(WarningKind::MissingMaterial) > 0 {
-        materials.push(Material::default());
-    }
-    let (scene, cleaned) = Scene::new(&faces, materials, objects).map_err(|error| {
-        let line = matches!(error, SceneError::Corner { .. }).then(|| far_vertex(&text)).flatten();
-        text::wrong(path, line, error.to_string())
-    })?;
-    Ok((scene, library.warnings.and(warnings).and(cleaned)))
+    ObjFile::read(path, reader)?.scene()
 }
 
-/// The lines that are used, without comments. Line numbers do not change.
-fn relevant_lines(text: &str) -> String {
-    let mut relevant = String::with_capacity(text.len());
-    let mut lines = text.lines();
-    while let Some(line) = lines.next() {
-        let mut words = line.split_whitespace();
-        match words.next() {
-            // Three coordinates and a colour, which is removed.
-            Some("v") if words.clone().count() == 6 => {
-                relevant += "v";
-                words.take(3).for_each(|coordinate| relevant.extend([" ", coordinate]));
-            }
-            Some("v" | "f") => {
-                let mut skipped = String::new();
-                let mut part = without_comment(line);
-                while let Some(joined) = part.strip_suffix('\\') {
-                    relevant.extend([joined, " "]);
-                    skipped.push('\n');
-                    part = without_comment(lines.next().unwrap_or_default());
-                }
-                relevant.extend([part, &skipped]);
-            }
-            Some(key @ ("o" | "g" | "usemtl" | "mtllib")) => {
-                relevant.extend([key, " ", line.trim_start()[key.len()..].trim()]);
-            }
-            _ => {}
+/// The contents of an OBJ file and its material files. They can be changed before they become a
+/// scene.
+pub struct ObjFile {
+    path: PathBuf,
+    /// Its faces, with the numbers of their materials and objects.
+    pub faces: Vec<Face>,
+    /// The materials of its material files, and a grey one if faces have none.
+    pub materials: Vec<MtlMaterial>,
+    /// Names of objects and groups that have faces. Those of the same name are one object.
+    pub objects: Vec<String>,
+    /// What was missing or ignored.
+    pub warnings: Warnings,
+    /// The line of the first vertex with a coordinate that is not finite or too large.
+    far_vertex: Option<usize>,
+}
+
+impl ObjFile {
+    /// Reads an OBJ file and its material files through `reader`.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or has vertices, faces or material names that are invalid.
+    pub fn read(path: &Path, reader: Reader) -> Result<ObjFile, SceneError> {
+        let text = text::read(path, reader)
+            .map_err(|source| SceneError::Unreadable { path: path.to_owned(), source })?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let mut library = Library::default();
+        for statement in statements(&text).filter(|statement| statement.key == "mtllib") {
+            library.load(folder, &statement.rest, reader);
         }
-        relevant.push('\n');
+        if let Some(error) = library.nameless {
+            return Err(error);
+        }
+        let vertices = Vertices::of(&text).map_err(|error| error.in_file(path))?;
+        let Faces { faces, objects, warnings } =
+            Faces::of(&text, &library, &vertices.points).map_err(|error| error.in_file(path))?;
+        let mut materials = library.materials;
+        if warnings.count(WarningKind::MissingMaterial) > 0 {
+            materials.push(MtlMaterial::grey());
+        }
+        let warnings = library.warnings.and(vertices.warnings).and(warnings);
+        let (path, far_vertex) = (path.to_owned(), vertices.far);
+        Ok(ObjFile { path, faces, materials, objects, warnings, far_vertex })
     }
-    relevant
+
+    /// The materials that faces use.
+    pub fn used_materials(&self) -> impl Iterator<Item = &MtlMaterial> {
+        let used = self.use_of_materials();
+        self.materials.iter().zip(used).filter_map(|(material, used)| used.then_some(material))
+    }
+
+    /// Lowers all reflectances in use that are above `most`, but not above 1, with a warning.
+    pub fn clamp_reflectances(&mut self, most: f64) {
+        for (number, used) in self.use_of_materials().into_iter().enumerate() {
+            if used && let Some(change) = self.materials[number].clamp(most) {
+                self.warnings.add(WarningKind::Clamped, || change);
+            }
+        }
+    }
+
+    /// The scene of the faces, cleaned, and all warnings.
+    ///
+    /// # Errors
+    /// A material that is used and impossible, or faces that do not make a scene.
+    pub fn scene(mut self) -> Result<(Scene, Warnings), SceneError> {
+        let used = self.use_of_materials();
+        let mut materials = Vec::with_capacity(self.materials.len());
+        for (material, used) in self.materials.iter().zip(used) {
+            materials.push(if used {
+                material.used(&mut self.warnings)?
+            } else {
+                material.unused()
+            });
+        }
+        let cleaned = Scene::new(&self.faces, materials, self.objects);
+        let (scene, warnings) = cleaned.map_err(|error| {
+            let line = self.far_vertex.filter(|_| matches!(error, SceneError::Corner { .. }));
+            text::wrong(&self.path, line, error.to_string())
+        })?;
+        Ok((scene, self.warnings.and(warnings)))
+    }
+
+    /// Whether each material is that of a face.
+    fn use_of_materials(&self) -> Vec<bool> {
+        let mut used = vec![false; self.materials.len()];
+        for face in &self.faces {
+            used[face.material as usize] = true;
+        }
+        used
+    }
 }
 
-fn without_comment(line: &str) -> &str {
+/// A line that is used. Numbers may go on in the next line, after a backslash.
+struct Statement<'a> {
+    /// Its line, or its first one, counted from 1.
+    line: usize,
+    key: &'a str,
+    /// Numbers without comments; or a name, perhaps with a comment.
+    rest: Cow<'a, str>,
+}
+
+fn statements(text: &str) -> impl Iterator<Item = Statement<'_>> {
+    let mut lines = (1..).zip(text.lines());
+    std::iter::from_fn(move || {
+        loop {
+            let (line, found) = lines.next()?;
+            let found = found.trim();
+            let (key, rest) = found.split_once(char::is_whitespace).unwrap_or((found, ""));
+            if ["o", "g", "usemtl", "mtllib"].contains(&key) {
+                return Some(Statement { line, key, rest: Cow::Borrowed(rest.trim()) });
+            }
+            if ["v", "f"].contains(&key) {
+                let mut rest = Cow::Borrowed(numbers(rest));
+                while let Some(joined) = rest.strip_suffix('\\') {
+                    let next = lines.next().map_or("", |(_, next)| numbers(next));
+                    rest = Cow::Owned(format!("{joined} {next}"));
+                }
+                return Some(Statement { line, key, rest });
+            }
+        }
+    })
+}
+
+/// Numbers without a comment.
+fn numbers(line: &str) -> &str {
     line.split('#').next().unwrap_or_default().trim_end()
 }
 
-/// Faces converted from the meshes of tobj.
+/// What is wrong with a line.
+struct Problem {
+    line: usize,
+    problem: String,
+}
+
+impl Problem {
+    fn of(statement: &Statement, what: &str) -> Problem {
+        let found = format!("{} {}", statement.key, statement.rest.trim());
+        let found: String = found.trim().chars().take(60).collect();
+        Problem { line: statement.line, problem: format!("\"{found}\": {what}") }
+    }
+
+    fn in_file(self, path: &Path) -> SceneError {
+        text::wrong(path, Some(self.line), self.problem)
+    }
+}
+
+/// The vertices of a file.
+struct Vertices {
+    points: Vec<DVec3>,
+    warnings: Warnings,
+    /// The line of the first one with a coordinate that is not finite or too large.
+    far: Option<usize>,
+}
+
+impl Vertices {
+    /// Vertices of 3 numbers; with a weight 4, with a colour 6, with both 7.
+    fn of(text: &str) -> Result<Vertices, Problem> {
+        let mut all = Vertices { points: Vec::new(), warnings: Warnings::default(), far: None };
+        for statement in statements(text).filter(|statement| statement.key == "v") {
+            let expected = "position parse error; expected three numbers: v X Y Z";
+            let wrong = || Problem::of(&statement, expected);
+            let words: Vec<&str> = statement.rest.split_whitespace().collect();
+            let needed = match words.len() {
+                count @ (3 | 4) => count,
+                6 | 7 => 3,
+                _ => return Err(wrong()),
+            };
+            let numbers: Vec<f64> =
+                words[..needed].iter().flat_map(|word| word.parse().ok()).collect();
+            let (&[x, y, z] | &[x, y, z, _]) = numbers.as_slice() else { return Err(wrong()) };
+            if numbers.len() != needed {
+                return Err(wrong());
+            }
+            if numbers.get(3).is_some_and(|&weight| weight != 1.0) {
+                let first = || format!("line {}, {}", statement.line, words[3]);
+                all.warnings.add(WarningKind::Weight, first);
+            }
+            let point = DVec3::new(x, y, z);
+            if !point.abs().cmple(DVec3::splat(FARTHEST)).all() {
+                all.far.get_or_insert(statement.line);
+            }
+            all.points.push(point);
+        }
+        Ok(all)
+    }
+}
+
+/// The faces of a file.
+#[derive(Default)]
 struct Faces {
     faces: Vec<Face>,
     objects: Vec<String>,
@@ -113,106 +234,65 @@ struct Faces {
 }
 
 impl Faces {
-    /// Groups of the same name are one object. Faces without a material get the next index.
-    fn of(models: &[Model], materials: &[Material], text: &str) -> Faces {
-        let mut all =
-            Faces { faces: Vec::new(), objects: Vec::new(), warnings: Warnings::default() };
+    /// Groups of the same name are one object. Faces without a material get the next number.
+    fn of(text: &str, library: &Library, points: &[DVec3]) -> Result<Faces, Problem> {
+        let mut all = Faces::default();
         let mut numbers = BTreeMap::new();
-        for Model { name, mesh } in models {
-            let object = *numbers.entry(name).or_insert(all.objects.len() as u32);
-            if object as usize == all.objects.len() {
-                all.objects.push(name.clone());
-            }
-            let material = mesh.material_id.unwrap_or(materials.len()) as u32;
-            let mut indices = mesh.indices.as_slice();
-            // tobj gives no numbers of corners if all faces are triangles.
-            let triangles = std::iter::repeat_n(3, indices.len() / 3);
-            let arities: Vec<u32> = match mesh.face_arities.as_slice() {
-                [] => triangles.collect(),
-                arities => arities.to_vec(),
-            };
-            for arity in arities {
-                let (corners, rest) = indices.split_at(arity as usize);
-                indices = rest;
-                let points = corners.iter().map(|&v| vertex(mesh, v)).collect();
-                all.faces.push(Face { points, material, object });
-                if mesh.material_id.is_none() {
-                    all.warnings.add(WarningKind::MissingMaterial, || {
-                        format!("object \"{name}\"{}", unknown_material(text, materials))
-                    });
+        let (mut object, mut material, mut vertices) = (UNNAMED, None, 0);
+        let lines: Vec<Statement> = statements(text).collect();
+        for statement in &lines {
+            match (statement.key, text::name(&statement.rest)) {
+                ("v", _) => vertices += 1,
+                ("o" | "g", "") => object = UNNAMED,
+                ("o" | "g", name) => object = name,
+                ("usemtl", _) => material = library.find(&statement.rest),
+                ("f", _) => {
+                    let number = *numbers.entry(object).or_insert(all.objects.len() as u32);
+                    if number as usize == all.objects.len() {
+                        all.objects.push(object.to_owned());
+                    }
+                    let points = corners(statement, points, vertices)?;
+                    let of = material.unwrap_or(library.materials.len() as u32);
+                    all.faces.push(Face { points, material: of, object: number });
+                    if material.is_none() {
+                        let place =
+                            || format!("object \"{object}\"{}", unknown_material(&lines, library));
+                        all.warnings.add(WarningKind::MissingMaterial, place);
+                    }
                 }
+                _ => {}
             }
         }
-        all
+        Ok(all)
     }
 }
 
-fn vertex(mesh: &tobj::Mesh, number: u32) -> DVec3 {
-    DVec3::from_slice(&mesh.positions[3 * number as usize..])
+/// The corners of a face. Negative numbers count back from the last of the vertices before it.
+fn corners(statement: &Statement, points: &[DVec3], before: usize) -> Result<Vec<DVec3>, Problem> {
+    let corner = |word: &str| {
+        let number = word.split('/').next().unwrap_or_default();
+        let expected =
+            "face parse error; expected numbers of vertices: f 1 2 3, or f 1/1/1 2/2/2 3/3/3";
+        let wanted: i64 = number.parse().map_err(|_| Problem::of(statement, expected))?;
+        let from = if wanted < 0 { before as i64 } else { -1 };
+        let index = from.checked_add(wanted).and_then(|index| usize::try_from(index).ok());
+        index.and_then(|index| points.get(index)).copied().ok_or_else(|| {
+            let limit = if wanted < 0 { before } else { points.len() };
+            let problem = format!("vertex \"{number}\" of a face; expected 1 to {limit} here");
+            Problem { line: statement.line, problem }
+        })
+    };
+    statement.rest.split_whitespace().map(corner).collect()
 }
 
-/// The first `usemtl` line whose material no file defines, as text for a warning.
-fn unknown_material(text: &str, materials: &[Material]) -> String {
-    let unknown = text.lines().enumerate().find_map(|(number, line)| {
-        let name = line.strip_prefix("usemtl ")?;
-        (!materials.iter().any(|m| m.name == name)).then_some((number + 1, name))
+/// The first material that no file defines, as text for a warning.
+fn unknown_material(statements: &[Statement], library: &Library) -> String {
+    let unknown = statements.iter().filter(|s| s.key == "usemtl").find_map(|statement| {
+        let name = text::without_comment(&statement.rest);
+        (!name.is_empty() && library.find(&statement.rest).is_none())
+            .then_some((statement.line, name))
     });
     unknown.map_or_else(String::new, |(line, name)| {
         format!("; line {line} asks for \"{name}\", which no material file defines")
     })
-}
-
-/// Turns an error of tobj, which stopped after `read` bytes, into one with line and value.
-fn diagnose(path: &Path, text: &str, read: u64, error: LoadError) -> SceneError {
-    if error == LoadError::FaceVertexOutOfBounds
-        && let Some((line, problem)) = wrong_index(text)
-    {
-        return text::wrong(path, Some(line), problem);
-    }
-    let before = &text[..read as usize];
-    let (line, found) = (1..).zip(before.lines()).last().unwrap_or_default();
-    let expected = match found.split_whitespace().next() {
-        Some("v") => "expected three numbers: v X Y Z",
-        Some("f") => "expected numbers of vertices: f 1 2 3, or f 1/1/1 2/2/2 3/3/3",
-        _ => "expected a name",
-    };
-    let found: String = found.chars().take(60).collect();
-    text::wrong(path, Some(line), format!("\"{found}\": {error}; {expected}"))
-}
-
-/// The first face with a vertex that does not exist or, failing that, is defined later.
-fn wrong_index(text: &str) -> Option<(usize, String)> {
-    let total = text.lines().filter(|line| is_vertex(line)).count() as i64;
-    let search = |forward: bool| {
-        let mut before = 0;
-        text.lines().enumerate().find_map(|(number, line)| {
-            before += i64::from(is_vertex(line));
-            let limit = if forward { total } else { before };
-            let words = line.trim_start().strip_prefix('f')?.split_whitespace();
-            let mut vertices = words.map(|word| word.split('/').next().unwrap_or_default());
-            let wrong = vertices.find(|word| match word.parse::<i64>() {
-                Ok(index) if index < 0 => before.checked_add(index).is_none_or(|v| v < 0),
-                Ok(index) => index == 0 || index > limit,
-                Err(_) => true,
-            })?;
-            let problem = format!("vertex \"{wrong}\" of a face; expected 1 to {limit} here");
-            Some((number + 1, problem))
-        })
-    };
-    search(true).or_else(|| search(false))
-}
-
-/// The line of the first vertex with a coordinate that is not finite or too large.
-fn far_vertex(text: &str) -> Option<usize> {
-    let far = |line: &str| {
-        let mut numbers = line.split_whitespace().skip(1).flat_map(str::parse::<f64>);
-        let point = [numbers.next(), numbers.next(), numbers.next()];
-        let w = numbers.next().unwrap_or(1.0);
-        point.iter().flatten().any(|c| c.is_nan() || (c / w).abs() > FARTHEST)
-    };
-    text.lines().position(|line| is_vertex(line) && far(line)).map(|index| index + 1)
-}
-
-fn is_vertex(line: &str) -> bool {
-    line.split_whitespace().next() == Some("v")
 }

@@ -95,6 +95,8 @@ pub struct Scene {
     pub origin: DVec3,
     /// Local bounds.
     pub bounds: Bounds,
+    /// Upward direction, a unit vector, for pictures.
+    pub up: DVec3,
     /// Participating media.
     pub media: Vec<Medium>,
 }

@@ -10,8 +10,18 @@ pub enum WarningKind {
     MissingMaterialFile,
     /// A material without a reflectance (`Kd`): the default is used.
     MissingReflectance,
+    /// A material with a texture (`map_Kd`), which is not read.
+    Texture,
+    /// A material with a texture of its emission (`map_Ke`), which is not read.
+    EmissionTexture,
+    /// A material that lets light through (`d`, `Tr`, `Tf`, `map_d`): opaque here.
+    Transparency,
+    /// A material with a reflectance above the limit that was asked for: lowered.
+    Clamped,
     /// A face without a material, or with an undefined material: the default is used.
     MissingMaterial,
+    /// A vertex with a fourth coordinate, the weight of a rational curve, that is not 1: ignored.
+    Weight,
     /// A face with fewer than three distinct corners, or without area: dropped.
     ZeroArea,
     /// A face whose corners are not in one plane: divided into triangles.
@@ -40,6 +50,13 @@ impl fmt::Display for Warning {
         let (noun, what) = match self.kind {
             WarningKind::MissingMaterialFile => ("material file", "not read"),
             WarningKind::MissingReflectance => ("material", "without Kd: default grey taken"),
+            WarningKind::Texture => ("material", "with a texture (map_Kd), which is not read"),
+            WarningKind::EmissionTexture => {
+                ("material", "with a texture of emission (map_Ke), which is not read")
+            }
+            WarningKind::Transparency => ("transparent material", "taken as opaque"),
+            WarningKind::Clamped => ("material", "with a clamped reflectance"),
+            WarningKind::Weight => ("vertex", "with a fourth coordinate other than 1: ignored"),
             WarningKind::MissingMaterial => ("face", "without a material: default grey taken"),
             WarningKind::ZeroArea => ("face", "without area dropped"),
             WarningKind::NonPlanar => ("non-planar face", "cut into triangles"),
@@ -47,8 +64,12 @@ impl fmt::Display for Warning {
             WarningKind::SelfCrossing => ("face", "with a boundary that crosses itself"),
             WarningKind::Duplicate => ("duplicated face", "dropped"),
         };
-        let plural = if self.count == 1 { "" } else { "s" };
-        write!(f, "{} {noun}{plural} {what} (first: {})", self.count, self.first)
+        let nouns = match (self.count, noun) {
+            (1, noun) => noun.to_owned(),
+            (_, "vertex") => "vertices".to_owned(),
+            (_, noun) => format!("{noun}s"),
+        };
+        write!(f, "{} {nouns} {what} (first: {})", self.count, self.first)
     }
 }
 
