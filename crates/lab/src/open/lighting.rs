@@ -4,7 +4,7 @@ use radiosity::glam::DVec3;
 use radiosity::{ObjFile, Polygon, Rgb, Scene};
 
 /// Most lamps from which rays are cast.
-const LAMPS: usize = 16;
+const LAMPS: usize = 8;
 
 /// Directions of the rays of a lamp, whose normal is z.
 const DIRECTIONS: [DVec3; 8] = [

@@ -190,10 +190,10 @@ impl MtlMaterial {
 pub(crate) struct Library {
     read: BTreeSet<PathBuf>,
     pub(crate) materials: Vec<MtlMaterial>,
-    /// Number of the last material of each name, comments included.
+    /// Number of the last material of each name, as its line has it.
     whole: BTreeMap<String, u32>,
-    /// The same without comments. A name that has none comes first.
-    short: BTreeMap<String, u32>,
+    /// The same with less text: what [`text::name`] or [`without_comment`] leaves.
+    shorter: BTreeMap<String, u32>,
     pub(crate) warnings: Warnings,
     /// The first `newmtl` without a name.
     pub(crate) nameless: Option<SceneError>,
@@ -258,17 +258,19 @@ impl Library {
         let number = self.materials.len() as u32;
         self.materials.push(MtlMaterial::new(name, path));
         self.whole.insert(whole.to_owned(), number);
-        match without_comment(whole) {
-            short if short == whole => drop(self.short.insert(short.to_owned(), number)),
-            short => _ = self.short.entry(short.to_owned()).or_insert(number),
+        for shorter in [name, without_comment(whole)] {
+            self.shorter.entry(shorter.to_owned()).or_insert(number);
         }
         Some(number)
     }
 
-    /// The number of the material that the rest of a `usemtl` line names: by the whole text, else by
-    /// the text before a comment.
+    /// The number of the material that the rest of a `usemtl` line names: with as much of the text
+    /// as there is a material for, since a `#` in it may begin a comment or be part of a name.
     pub(crate) fn find(&self, text: &str) -> Option<u32> {
-        self.whole.get(text).or_else(|| self.short.get(without_comment(text))).copied()
+        let names = [text, text::name(text), without_comment(text)];
+        let found =
+            |map: &BTreeMap<String, u32>| names.iter().find_map(|&name| map.get(name).copied());
+        found(&self.whole).or_else(|| found(&self.shorter))
     }
 }
 
