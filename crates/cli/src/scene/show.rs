@@ -108,7 +108,7 @@ fn picture(
     let cut_above = arguments.cut_above.map(|height| (up, height - open.scene.origin.dot(up)));
     let options = PictureOptions { cut_above, ..PictureOptions::default() };
     if !arguments.solved {
-        return render(&open.scene, &camera, studio_light(&open.scene), options);
+        return render(&open.scene, &camera, studio_light(&open.scene, up), options);
     }
     let hemisphere = Hemisphere::new(HemisphereKind::Fibonacci, PIXELS, true)
         .expect("4096 is a number of pixels that a Fibonacci disc can have");

@@ -2,7 +2,7 @@
 
 use std::io;
 
-use glam::{DVec3, Vec3};
+use glam::{DQuat, DVec3, Vec3};
 
 use super::camera::Camera;
 use super::tone::{Exposure, Tone, geometric_mean, srgb};
@@ -105,9 +105,9 @@ fn encode_pixels(samples: &[Sample], width: usize, shown: impl Fn(Vec3) -> Rgb) 
 }
 
 /// Simple lighting for a scene without a solution: lights glow, and all other surfaces are shaded
-/// by their orientation, so that the faces of a box differ.
-pub fn studio_light(scene: &Scene) -> impl Fn(u32, DVec3) -> Rgb {
-    let sun = DVec3::new(0.45, -0.25, 0.8);
+/// by their orientation, so that the faces of a box differ. `up` is a unit vector.
+pub fn studio_light(scene: &Scene, up: DVec3) -> impl Fn(u32, DVec3) -> Rgb {
+    let sun = DQuat::from_rotation_arc(DVec3::Z, up) * DVec3::new(0.45, -0.25, 0.8);
     move |polygon, _| {
         let polygon = &scene.polygons[polygon as usize];
         let material = scene.material(polygon);
