@@ -105,7 +105,7 @@ fn pictures_follow_what_is_up() {
         assert!(draw("scenes/lying.obj") != upright, "{command}: z is up by default");
     }
     for (scene, up) in [("box", ""), ("lying", ""), ("scenes/lying.obj", " --up 0,2,0")] {
-        virtwall(&project, &format!("render {scene} --gltf a.glb{up}"));
+        virtwall(&project, &format!("render {scene} --gltf a.glb --unshot 90%{up}"));
         let file = gltf::Gltf::from_slice(&bytes("a.glb")).unwrap();
         let node = file.scenes().next().unwrap().nodes().next().unwrap();
         let child = node.children().next().unwrap();
