@@ -91,6 +91,7 @@ fn messages_name_file_line_value_and_what_was_expected() {
     assert_eq!(face("f 1 2 9"), "a.obj:5: vertex \"9\" of a face; expected 1 to 4 here");
     assert_eq!(face("f 1 2 0"), "a.obj:5: vertex \"0\" of a face; expected 1 to 4 here");
     assert_eq!(face("f 1 2 -5"), "a.obj:5: vertex \"-5\" of a face; expected 1 to 4 here");
+    assert!(face("f 1 2 /3").starts_with("a.obj:5: \"f 1 2 /3\": face parse error"));
     assert_eq!(
         face("f 1 2 x"),
         "a.obj:5: \"f 1 2 x\": face parse error; expected numbers of vertices: \
@@ -290,6 +291,15 @@ fn weights_and_colours_of_vertices_are_ignored() {
     for rest in ["0.5 0.5", "heavy", "1 2 3 4 5"] {
         assert!(error_message(square(rest), None).contains("expected three numbers"), "{rest}");
     }
+}
+
+/// Negative numbers count back from the face, positive ones from the start of the file.
+#[test]
+fn vertices_may_follow_the_faces_that_use_them() {
+    let obj = format!("o a\nf 5/x 6 7\no b\n{SQUARE}f -4// -3 -2\nv 0 0 1\nv 2 0 1\nv 0 2 1\n");
+    let (scene, _) = load(obj, None).unwrap();
+    let areas: Vec<f64> = scene.polygons.iter().map(|polygon| polygon.area).collect();
+    assert_eq!((areas, scene.objects), (vec![2.0, 0.5], vec!["a".to_owned(), "b".to_owned()]));
 }
 
 #[test]

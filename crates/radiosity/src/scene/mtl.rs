@@ -3,6 +3,9 @@
 //! Used are `newmtl`, `Kd` (reflectance), `Ke` (emitted radiosity, W/m²) and an extension:
 //! `virtwall_two_sided 1` means that both sides of a surface reflect and emit. Textures and
 //! transparency are not modelled: materials that have them give a warning. All else is ignored.
+//!
+//! They are not read with tobj: it rejects a whole file for one wrong value, does not say on which
+//! line it is, and panics if a colour has two numbers.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;

@@ -1,11 +1,16 @@
 //! Wavefront OBJ files. Used are `v`, `f`, `o`, `g`, `usemtl` and `mtllib`; all else is ignored.
+//!
+//! tobj parses the vertices and faces. It gets them without comments, weights, colours and texture
+//! coordinates: it rejects files for errors in these, and divides coordinates by weights. Names are
+//! resolved here, since tobj keeps the comments in them and rejects empty ones.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::io;
+use std::io::{self, Cursor};
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
+use tobj::{LoadError, LoadOptions, Mesh};
 
 use super::error::{FARTHEST, SceneError};
 use super::mtl::{Library, MtlMaterial};
@@ -65,22 +70,22 @@ impl ObjFile {
             .map_err(|source| SceneError::Unreadable { path: path.to_owned(), source })?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut library = Library::default();
-        for statement in statements(&text).filter(|statement| statement.key == "mtllib") {
+        let statements: Vec<Statement> = statements(&text).collect();
+        for statement in statements.iter().filter(|statement| statement.key == "mtllib") {
             library.load(folder, &statement.rest, reader);
         }
         if let Some(error) = library.nameless {
             return Err(error);
         }
-        let vertices = Vertices::of(&text).map_err(|error| error.in_file(path))?;
-        let Faces { faces, objects, warnings } =
-            Faces::of(&text, &library, &vertices.points).map_err(|error| error.in_file(path))?;
+        let corners = corners(&statements).map_err(|error| error.in_file(path))?;
+        let far_vertex = far_vertex(&statements, &corners);
+        let Faces { faces, objects, warnings } = Faces::of(&statements, &library, corners);
         let mut materials = library.materials;
         if warnings.count(WarningKind::MissingMaterial) > 0 {
             materials.push(MtlMaterial::grey());
         }
-        let warnings = library.warnings.and(vertices.warnings).and(warnings);
-        let (path, far_vertex) = (path.to_owned(), vertices.far);
-        Ok(ObjFile { path, faces, materials, objects, warnings, far_vertex })
+        let warnings = library.warnings.and(warnings);
+        Ok(ObjFile { path: path.to_owned(), faces, materials, objects, warnings, far_vertex })
     }
 
     /// The materials that faces use.
@@ -139,6 +144,30 @@ struct Statement<'a> {
     rest: Cow<'a, str>,
 }
 
+impl Statement<'_> {
+    /// The weight of a vertex of four numbers, and the word that it is.
+    fn weight(&self) -> Option<(f64, &str)> {
+        let words: Vec<&str> = self.rest.split_whitespace().collect();
+        let &[_, _, _, word] = words.as_slice() else { return None };
+        word.parse().ok().filter(|_| self.key == "v").map(|weight| (weight, word))
+    }
+
+    /// A line for tobj, empty without geometry. Vertices have 3 numbers; with a weight 4, with a
+    /// colour 6, with both 7: the first 3 stay. Wrong vertices stay as they are.
+    fn geometry(&self) -> String {
+        let words = self.rest.split_whitespace();
+        let words: Vec<&str> = match (self.key, words.clone().count()) {
+            ("v", 6 | 7) => words.take(3).collect(),
+            ("v", 4) if self.weight().is_some() => words.take(3).collect(),
+            ("v", _) => words.collect(),
+            // The slash keeps a corner without a number, which is an error.
+            ("f", _) => words.flat_map(|word| word.split_inclusive('/').next()).collect(),
+            _ => return "\n".to_owned(),
+        };
+        format!("{} {}\n", self.key, words.join(" "))
+    }
+}
+
 fn statements(text: &str) -> impl Iterator<Item = Statement<'_>> {
     let mut lines = (1..).zip(text.lines());
     std::iter::from_fn(move || {
@@ -173,7 +202,12 @@ struct Problem {
 }
 
 impl Problem {
-    fn of(statement: &Statement, what: &str) -> Problem {
+    /// A vertex or a face that cannot be parsed.
+    fn of(statement: &Statement) -> Problem {
+        let what = match statement.key {
+            "v" => "position parse error; expected three numbers: v X Y Z",
+            _ => "face parse error; expected numbers of vertices: f 1 2 3, or f 1/1/1 2/2/2 3/3/3",
+        };
         let found = format!("{} {}", statement.key, statement.rest.trim());
         let found: String = found.trim().chars().take(60).collect();
         Problem { line: statement.line, problem: format!("\"{found}\": {what}") }
@@ -184,45 +218,67 @@ impl Problem {
     }
 }
 
-/// The vertices of a file.
-struct Vertices {
-    points: Vec<DVec3>,
-    warnings: Warnings,
-    /// The line of the first one with a coordinate that is not finite or too large.
-    far: Option<usize>,
+/// The corners of each face, in the order of the file.
+///
+/// tobj does not get objects and materials: it would refuse vertices after the end of the object
+/// that uses them.
+fn corners(statements: &[Statement]) -> Result<Vec<Vec<DVec3>>, Problem> {
+    let text: String = statements.iter().map(Statement::geometry).collect();
+    let mut bytes = Cursor::new(text.as_bytes());
+    let none = |_: &Path| Ok(Default::default());
+    let loaded = tobj::load_obj_buf(&mut bytes, &LoadOptions::default(), none);
+    let (models, _) = loaded.map_err(|error| {
+        let read = text[..bytes.position() as usize].lines().count();
+        let wrong = (error == LoadError::FaceVertexOutOfBounds).then(|| wrong_corner(statements));
+        wrong.flatten().unwrap_or_else(|| Problem::of(&statements[read - 1]))
+    })?;
+    Ok(models.iter().flat_map(|model| corners_of(&model.mesh)).collect())
 }
 
-impl Vertices {
-    /// Vertices of 3 numbers; with a weight 4, with a colour 6, with both 7.
-    fn of(text: &str) -> Result<Vertices, Problem> {
-        let mut all = Vertices { points: Vec::new(), warnings: Warnings::default(), far: None };
-        for statement in statements(text).filter(|statement| statement.key == "v") {
-            let expected = "position parse error; expected three numbers: v X Y Z";
-            let wrong = || Problem::of(&statement, expected);
-            let words: Vec<&str> = statement.rest.split_whitespace().collect();
-            let needed = match words.len() {
-                count @ (3 | 4) => count,
-                6 | 7 => 3,
-                _ => return Err(wrong()),
-            };
-            let numbers: Vec<f64> =
-                words[..needed].iter().flat_map(|word| word.parse().ok()).collect();
-            let (&[x, y, z] | &[x, y, z, _]) = numbers.as_slice() else { return Err(wrong()) };
-            if numbers.len() != needed {
-                return Err(wrong());
+fn corners_of(mesh: &Mesh) -> impl Iterator<Item = Vec<DVec3>> {
+    let mut indices = mesh.indices.iter();
+    // tobj gives no numbers of corners if all faces are triangles.
+    let triangles = if mesh.face_arities.is_empty() { mesh.indices.len() / 3 } else { 0 };
+    let counts = mesh.face_arities.iter().copied().chain(std::iter::repeat_n(3, triangles));
+    counts.map(move |count| {
+        let corners = indices.by_ref().take(count as usize);
+        corners.map(|&v| DVec3::from_slice(&mesh.positions[3 * v as usize..])).collect()
+    })
+}
+
+/// The first corner without a number or without a vertex: tobj reports no line of it. Negative
+/// numbers count back from the last of the vertices before the face.
+fn wrong_corner(statements: &[Statement]) -> Option<Problem> {
+    let total = statements.iter().filter(|statement| statement.key == "v").count() as i64;
+    let mut before = 0;
+    statements.iter().find_map(|statement| {
+        before += i64::from(statement.key == "v");
+        let mut words = statement.rest.split_whitespace().filter(|_| statement.key == "f");
+        words.find_map(|word| {
+            let number = word.split('/').next().unwrap_or_default();
+            let Ok(wanted) = number.parse::<i64>() else { return Some(Problem::of(statement)) };
+            let limit = if wanted < 0 { before } else { total };
+            if (1..=limit).contains(&wanted.saturating_abs()) {
+                return None;
             }
-            if numbers.get(3).is_some_and(|&weight| weight != 1.0) {
-                let first = || format!("line {}, {}", statement.line, words[3]);
-                all.warnings.add(WarningKind::Weight, first);
-            }
-            let point = DVec3::new(x, y, z);
-            if !point.abs().cmple(DVec3::splat(FARTHEST)).all() {
-                all.far.get_or_insert(statement.line);
-            }
-            all.points.push(point);
-        }
-        Ok(all)
+            let problem = format!("vertex \"{number}\" of a face; expected 1 to {limit} here");
+            Some(Problem { line: statement.line, problem })
+        })
+    })
+}
+
+/// The line of the first vertex with a coordinate that is not finite or too large, if a face has
+/// such a corner.
+fn far_vertex(statements: &[Statement], corners: &[Vec<DVec3>]) -> Option<usize> {
+    let far = |point: DVec3| !point.abs().cmple(DVec3::splat(FARTHEST)).all();
+    if !corners.iter().flatten().any(|&corner| far(corner)) {
+        return None;
     }
+    let first = statements.iter().filter(|statement| statement.key == "v").find(|vertex| {
+        let mut numbers = vertex.rest.split_whitespace().take(3).flat_map(str::parse);
+        numbers.any(|number| far(DVec3::splat(number)))
+    });
+    first.map(|vertex| vertex.line)
 }
 
 /// The faces of a file.
@@ -235,14 +291,21 @@ struct Faces {
 
 impl Faces {
     /// Groups of the same name are one object. Faces without a material get the next number.
-    fn of(text: &str, library: &Library, points: &[DVec3]) -> Result<Faces, Problem> {
+    fn of(statements: &[Statement], library: &Library, corners: Vec<Vec<DVec3>>) -> Faces {
         let mut all = Faces::default();
         let mut numbers = BTreeMap::new();
-        let (mut object, mut material, mut vertices) = (UNNAMED, None, 0);
-        let lines: Vec<Statement> = statements(text).collect();
-        for statement in &lines {
+        let mut corners = corners.into_iter();
+        let (mut object, mut material) = (UNNAMED, None);
+        for statement in statements {
             match (statement.key, text::name(&statement.rest)) {
-                ("v", _) => vertices += 1,
+                ("v", _) => {
+                    if let Some((weight, word)) = statement.weight()
+                        && weight != 1.0
+                    {
+                        let first = || format!("line {}, {word}", statement.line);
+                        all.warnings.add(WarningKind::Weight, first);
+                    }
+                }
                 ("o" | "g", "") => object = UNNAMED,
                 ("o" | "g", name) => object = name,
                 ("usemtl", _) => material = library.find(&statement.rest),
@@ -251,38 +314,20 @@ impl Faces {
                     if number as usize == all.objects.len() {
                         all.objects.push(object.to_owned());
                     }
-                    let points = corners(statement, points, vertices)?;
+                    let points = corners.next().unwrap_or_default();
                     let of = material.unwrap_or(library.materials.len() as u32);
                     all.faces.push(Face { points, material: of, object: number });
                     if material.is_none() {
-                        let place =
-                            || format!("object \"{object}\"{}", unknown_material(&lines, library));
-                        all.warnings.add(WarningKind::MissingMaterial, place);
+                        all.warnings.add(WarningKind::MissingMaterial, || {
+                            format!("object \"{object}\"{}", unknown_material(statements, library))
+                        });
                     }
                 }
                 _ => {}
             }
         }
-        Ok(all)
+        all
     }
-}
-
-/// The corners of a face. Negative numbers count back from the last of the vertices before it.
-fn corners(statement: &Statement, points: &[DVec3], before: usize) -> Result<Vec<DVec3>, Problem> {
-    let corner = |word: &str| {
-        let number = word.split('/').next().unwrap_or_default();
-        let expected =
-            "face parse error; expected numbers of vertices: f 1 2 3, or f 1/1/1 2/2/2 3/3/3";
-        let wanted: i64 = number.parse().map_err(|_| Problem::of(statement, expected))?;
-        let from = if wanted < 0 { before as i64 } else { -1 };
-        let index = from.checked_add(wanted).and_then(|index| usize::try_from(index).ok());
-        index.and_then(|index| points.get(index)).copied().ok_or_else(|| {
-            let limit = if wanted < 0 { before } else { points.len() };
-            let problem = format!("vertex \"{number}\" of a face; expected 1 to {limit} here");
-            Problem { line: statement.line, problem }
-        })
-    };
-    statement.rest.split_whitespace().map(corner).collect()
 }
 
 /// The first material that no file defines, as text for a warning.
