@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use lab::{HostClock, OpenScene, RayBench};
 use radiosity::{Operation, Work};
 
-use crate::exit::Exit;
+use crate::exit::{Exit, print_warnings};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -43,6 +43,7 @@ enum Format {
 /// for the virtual processor; it does not include reading the file and building the grid.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let open = OpenScene::load(&arguments.scene.to_string_lossy())?;
+    print_warnings(&open.warnings);
     let bench = RayBench::new(open, arguments.sources, arguments.rays, arguments.seed)
         .map_err(Exit::bad_input)?;
     let clock = HostClock::start();

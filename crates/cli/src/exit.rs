@@ -1,5 +1,6 @@
 //! Exit codes, and what is printed where.
 
+use std::collections::BTreeSet;
 use std::error::Error;
 use std::io::{self, Write};
 
@@ -34,6 +35,14 @@ impl From<Fault> for Exit {
 pub fn print(text: &str) {
     let mut output = io::stdout().lock();
     let _ = output.write_all(text.as_bytes()).and_then(|()| output.flush());
+}
+
+/// Prints the warnings about scenes to standard error, each once.
+pub fn print_warnings<'a>(warnings: impl IntoIterator<Item = &'a String>) {
+    let mut printed = BTreeSet::new();
+    for warning in warnings.into_iter().filter(|&warning| printed.insert(warning)) {
+        print_note(&format!("warning: {warning}"));
+    }
 }
 
 pub fn print_note(line: &str) {

@@ -9,7 +9,7 @@ use radiosity::Space;
 use reference::{Estimate, ObjectRays, Objects};
 use serde_json::json;
 
-use crate::exit::Exit;
+use crate::exit::{Exit, print_warnings};
 use crate::files::write;
 use crate::steps::Steps;
 use crate::threads::Threads;
@@ -66,6 +66,7 @@ pub fn tolerance(text: &str) -> Result<f64, String> {
 /// Computes form factors; returns what to print.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let open = OpenScene::load(&arguments.scene)?.without_media()?;
+    print_warnings(&open.warnings);
     let objects = Objects::new(&open.scene);
     let threads = arguments.threads.count();
     let matrix = match arguments.method {

@@ -2,6 +2,7 @@
 //!
 //! Exit codes: 0 success; 1 a run failed; 2 bad input, and nothing was written.
 
+mod arguments;
 mod bench_rays;
 mod check;
 mod exit;

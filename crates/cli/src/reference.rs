@@ -11,7 +11,7 @@ use reference::{
 };
 use serde::{Deserialize, Serialize};
 
-use crate::exit::Exit;
+use crate::exit::{Exit, print_warnings};
 use crate::files::{make_folder, write};
 use crate::scene::meshed;
 use crate::steps::Steps;
@@ -92,6 +92,7 @@ struct Partial {
 /// Computes and stores; returns what was done.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let open = OpenScene::load(&arguments.scene)?.without_media()?;
+    print_warnings(open.all_warnings());
     let (space, environment) = meshed(&open);
     let patches = Patches::new(&space, &environment);
     let threads = arguments.threads.count();

@@ -11,7 +11,8 @@ use radiosity::{
     Camera, Exposure, LARGEST_PICTURE, Mesh, Picture, PictureOptions, Rgb, Shading, Tone, render,
 };
 
-use crate::exit::{Exit, print_note};
+use crate::arguments::{direction, number, point};
+use crate::exit::{Exit, print_note, print_warnings};
 use crate::files::write;
 use crate::steps::Steps;
 
@@ -67,7 +68,7 @@ struct Moment {
     frames: Option<u32>,
 }
 
-/// The camera. Coordinates are the scene's, in metres; z is up.
+/// The camera. Coordinates are the scene's, in metres.
 #[derive(Args)]
 struct View {
     /// Position of the camera, unless --eye and --target are given
@@ -79,8 +80,9 @@ struct View {
     /// Point that it looks at
     #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
     target: Option<DVec3>,
-    /// Direction that is up in the picture [default: 0,0,1]
-    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
+    /// Direction that is up in pictures and glTF files [default: as the scene description says, else
+    /// 0,0,1]
+    #[arg(long, value_name = "X,Y,Z", value_parser = direction, allow_hyphen_values = true)]
     up: Option<DVec3>,
     /// Vertical field of view, degrees
     #[arg(long, value_name = "DEGREES", value_parser = angle)]
@@ -88,8 +90,9 @@ struct View {
     /// Size of the picture, pixels
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1200x800", value_parser = size)]
     size: (u32, u32),
-    /// Leave out of pictures what is above this height, metres
-    #[arg(long, value_name = "Z", value_parser = number, allow_hyphen_values = true)]
+    /// Leave out of pictures what is above this height, metres. With --eye, height is along the
+    /// scene's own upward direction, whatever --up says
+    #[arg(long, value_name = "HEIGHT", value_parser = number, allow_hyphen_values = true)]
     cut_above: Option<f64>,
 }
 
@@ -121,6 +124,7 @@ enum ToneArgument {
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let Moment { set, run, at, frames, .. } = &arguments.moment;
     let stage = Stage::open(&arguments.what, &Which { set, row: *run })?;
+    print_warnings(&stage.warnings);
     if stage.run.is_none() && (at.is_some() || frames.is_some() || run.is_some() || !set.is_empty())
     {
         let message = format!("{}: a scene; expected an experiment or results", arguments.what);
@@ -192,9 +196,10 @@ impl Renderer<'_> {
             exposure = Exposure::MiddleGrey(self.write_picture(&light, exposure, path)?);
         }
         if let Some(path) = &self.arguments.gltf {
-            let origin = self.stage.space().scene.origin;
-            let (bytes, middle_grey) =
-                self.mesh.to_glb(&light, origin, exposure, self.tone()).map_err(Exit::failure)?;
+            let scene = &self.stage.space().scene;
+            let (origin, up) = (scene.origin, self.arguments.view.up.unwrap_or(scene.up));
+            let file = self.mesh.to_glb(&light, origin, up, exposure, self.tone());
+            let (bytes, middle_grey) = file.map_err(Exit::failure)?;
             write(path, &bytes)?;
             exposure = Exposure::MiddleGrey(middle_grey);
         }
@@ -237,7 +242,9 @@ impl Renderer<'_> {
 
     fn picture(&self, light: &[Rgb], exposure: Exposure) -> Result<Picture, Exit> {
         let scene = &self.stage.space().scene;
-        let cut_above = self.arguments.view.cut_above.map(|height| height - scene.origin.z);
+        let View { up, eye, cut_above, .. } = self.arguments.view;
+        let up = up.filter(|_| eye.is_none()).unwrap_or(scene.up);
+        let cut_above = cut_above.map(|height| (up, height - scene.origin.dot(up)));
         let options = PictureOptions { exposure, tone: self.tone(), cut_above };
         let colour = |polygon, point| self.mesh.radiosity_at(light, polygon, point);
         render(scene, &self.camera, colour, options).map_err(Exit::bad_input)
@@ -266,15 +273,15 @@ impl Renderer<'_> {
 impl View {
     fn camera(&self, scene: &radiosity::Scene) -> Result<Camera, String> {
         let (width, height) = self.size;
+        let up = self.up.unwrap_or(scene.up);
         let default = match self.camera {
-            CameraArgument::Outside => Camera::overview(&scene.bounds, width, height),
-            CameraArgument::Inside => Camera::inside(&scene.bounds, width, height),
+            CameraArgument::Outside => Camera::overview(&scene.bounds, up, width, height),
+            CameraArgument::Inside => Camera::inside(&scene.bounds, up, width, height),
         };
         let local = |place: Option<DVec3>| place.map(|place| place - scene.origin);
         let camera = Camera {
             eye: local(self.eye).unwrap_or(default.eye),
             target: local(self.target).unwrap_or(default.target),
-            up: self.up.unwrap_or(default.up),
             field_of_view_degrees: self.field_of_view.unwrap_or(default.field_of_view_degrees),
             ..default
         };
@@ -320,11 +327,6 @@ fn share(text: &str) -> Result<f64, String> {
     parse(text, Dimension::Fraction)
 }
 
-fn number(text: &str) -> Result<f64, String> {
-    let number = text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
-    number.ok_or_else(|| format!("found \"{text}\"; expected a number"))
-}
-
 fn positive(text: &str) -> Result<f64, String> {
     let positive = number(text).ok().filter(|&number| number > 0.0);
     positive.ok_or_else(|| format!("found \"{text}\"; expected a number above zero"))
@@ -333,14 +335,6 @@ fn positive(text: &str) -> Result<f64, String> {
 fn angle(text: &str) -> Result<f64, String> {
     let angle = number(text).ok().filter(|angle| (0.1..=179.0).contains(angle));
     angle.ok_or_else(|| format!("found \"{text}\"; expected degrees, 0.1 to 179"))
-}
-
-fn point(text: &str) -> Result<DVec3, String> {
-    let numbers: Result<Vec<f64>, String> = text.split(',').map(number).collect();
-    match numbers.as_deref() {
-        Ok(&[x, y, z]) => Ok(DVec3::new(x, y, z)),
-        _ => Err(format!("found \"{text}\"; expected three numbers, such as 1.5,-2,1.7")),
-    }
 }
 
 fn size(text: &str) -> Result<(u32, u32), String> {

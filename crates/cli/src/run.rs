@@ -11,7 +11,7 @@ use lab::{
 };
 use traces::{Format, Sample};
 
-use crate::exit::{Exit, print};
+use crate::exit::{Exit, print, print_warnings};
 use crate::files::make_folder;
 use crate::live;
 use crate::progress::{Pilots, Progress};
@@ -65,7 +65,7 @@ pub struct Arguments {
     viewer: Viewing,
     #[command(flatten)]
     live: live::Serving,
-    /// Print only errors: no progress, no table
+    /// Print only errors: no warnings, no progress, no table
     #[arg(long, short)]
     quiet: bool,
 }
@@ -122,6 +122,9 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let preparing = Preparing { threads, memory, finding: true, on_pilot: &on_pilot };
     let plan = Arc::new(Plan::read(&arguments.file, &set, &preparing)?);
     pilots.end();
+    if !arguments.quiet {
+        print_warnings(&plan.warnings);
+    }
     arguments.viewer.check(&plan).map_err(Exit::bad_input)?;
     let place = out.display();
     let traces = traces(arguments)?;

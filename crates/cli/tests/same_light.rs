@@ -194,7 +194,7 @@ fn browser_render_and_gltf_show_the_same_radiosity() {
             virtwall(&[&["render", out][..], &look, &files].concat());
             let rendered = Image::of_png(&fs::read(&png).unwrap());
             let model = Model::read(&fs::read(&glb).unwrap(), scene);
-            let camera = Camera::overview(&scene.bounds, browser.width, browser.height);
+            let camera = Camera::overview(&scene.bounds, scene.up, browser.width, browser.height);
             let drawn = model.draw(&camera, middle.parse().unwrap(), tone);
             compare(&format!("{shading}, {name}: browser and render"), &browser, &rendered);
             compare(&format!("{shading}, {name}: glTF and render"), &drawn, &rendered);

@@ -22,7 +22,7 @@ pub use files::digest::{sealed, unsealed};
 pub use files::file::{check_writable, write as write_file};
 pub use host::host_clock::HostClock;
 pub use host::host_memory::half_of_free_memory;
-pub use inspect::check::check;
+pub use inspect::check::{Checked, check};
 pub use inspect::stage::{Stage, StagedRun, Which};
 pub use inspect::trials::Trials;
 pub use open::machine_file::MachineFile;

@@ -34,8 +34,8 @@ pub use picture::{
     render, studio_light,
 };
 pub use scene::{
-    DEFAULT_REFLECTANCE, Face, Material, Plane, Polygon, Rgb, Scene, SceneError, Warning,
-    WarningKind, Warnings, load_obj, load_obj_from,
+    DEFAULT_REFLECTANCE, Face, Material, MtlMaterial, ObjFile, Plane, Polygon, Rgb, Scene,
+    SceneError, Warning, WarningKind, Warnings, load_obj, load_obj_from, read_regular_file,
 };
 pub use shoot::{
     Emitter, End, Hemisphere, HemisphereError, HemisphereKind, MOST_PIXELS, Mask, Operation,

@@ -131,10 +131,10 @@ proptest! {
             let lit = mesh.light(std::slice::from_ref(&radiosity));
             let origin = space.scene.origin;
             let (glb, middle_grey) =
-                mesh.to_glb(&lit, origin, Exposure::Auto, Tone::Reinhard).unwrap();
+                mesh.to_glb(&lit, origin, space.scene.up, Exposure::Auto, Tone::Reinhard).unwrap();
             prop_assert!(is_sound(&glb));
             prop_assert!(middle_grey != 1.0, "the exposure falls back");
-            let camera = Camera::overview(&space.scene.bounds, 24, 16);
+            let camera = Camera::overview(&space.scene.bounds, space.scene.up, 24, 16);
             let colour = |polygon, point| mesh.radiosity_at(&lit, polygon, point);
             let picture = render(&space.scene, &camera, colour, PictureOptions::default());
             prop_assert!(picture.unwrap().middle_grey.is_finite());
@@ -155,7 +155,7 @@ fn numbers_that_are_not_finite_are_refused() {
     };
     let materials = vec![Material::default(); 2];
     let scene = Scene::new(&room.faces(), materials, vec!["room".to_owned()]).unwrap().0;
-    let camera = Camera::overview(&scene.bounds, 24, 16);
+    let camera = Camera::overview(&scene.bounds, scene.up, 24, 16);
     for wrong in [f64::NAN, f64::INFINITY, 1e39] {
         let picture = render(&scene, &camera, |_, _| Rgb::splat(wrong), PictureOptions::default());
         assert_eq!(picture.unwrap_err(), PictureError::NotFinite);
@@ -164,7 +164,7 @@ fn numbers_that_are_not_finite_are_refused() {
         let environments = [LocalEnvironment::new(&space, space.grid.whole(), size)];
         let mesh = Mesh::new(&space, &environments, Shading::Flat);
         let light = vec![Rgb::splat(wrong); mesh.positions().len()];
-        let glb = mesh.to_glb(&light, DVec3::ZERO, Exposure::Auto, Tone::Linear);
+        let glb = mesh.to_glb(&light, DVec3::ZERO, DVec3::Z, Exposure::Auto, Tone::Linear);
         assert_eq!(glb.unwrap_err(), PictureError::NotFinite);
     }
 }

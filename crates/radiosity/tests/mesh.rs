@@ -158,6 +158,26 @@ fn pixels_show_the_radiosity() {
     assert_eq!(seen, 8);
 }
 
+/// Whatever is up becomes y, with lengths and handedness kept.
+#[test]
+fn up_is_y_in_a_gltf_file() {
+    let (space, environments) = cut();
+    let mesh = Mesh::new(&space, &environments, Shading::Flat);
+    let lit = mesh.light(&light(&environments, slope));
+    let tilted = DVec3::new(1.0, 2.0, -2.0) / 3.0;
+    for up in [DVec3::Z, DVec3::Y, DVec3::NEG_Y, DVec3::X, DVec3::NEG_Z, tilted] {
+        let (exposure, tone) = (Exposure::MiddleGrey(5.0), Tone::Reinhard);
+        let (bytes, _) = mesh.to_glb(&lit, DVec3::ZERO, up, exposure, tone).unwrap();
+        let file = gltf::Gltf::from_slice(&bytes).unwrap();
+        let node = file.scenes().next().unwrap().nodes().next().unwrap();
+        let turn =
+            glam::DMat4::from_cols_array_2d(&node.transform().matrix().map(|c| c.map(f64::from)));
+        let turned = turn.transform_vector3(up);
+        assert!(turned.distance(DVec3::Y) < 1e-6, "{up} becomes {turned}");
+        assert!((turn.determinant() - 1.0).abs() < 1e-6);
+    }
+}
+
 /// An independent reader finds the mesh, its radiosities and the colours of a picture in a glTF
 /// file.
 #[test]
@@ -169,7 +189,8 @@ fn a_gltf_file_contains_mesh_radiosities_and_colours() {
         let lit = mesh.light(&radiosity);
         let exposure = Exposure::MiddleGrey(5.0);
         let origin = space.scene.origin;
-        let (bytes, middle) = mesh.to_glb(&lit, origin, exposure, Tone::Reinhard).unwrap();
+        let up = space.scene.up;
+        let (bytes, middle) = mesh.to_glb(&lit, origin, up, exposure, Tone::Reinhard).unwrap();
         assert_eq!(middle, 5.0);
         let file = gltf::Gltf::from_slice(&bytes).unwrap();
         let blob = file.blob.as_deref().unwrap();

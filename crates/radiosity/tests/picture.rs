@@ -75,7 +75,7 @@ fn backs_are_invisible() {
 
 #[test]
 fn polygons_above_the_cut_are_omitted() {
-    let cut_above = Some(0.0);
+    let cut_above = Some((DVec3::Z, 0.0));
     let picture = draw(&squares(true), PictureOptions { cut_above, ..Default::default() });
     assert_eq!(pixel(&picture, 28, 20), RED);
 }
@@ -106,7 +106,7 @@ fn a_camera_inside_a_scene_sees_what_is_ahead() {
 #[test]
 fn an_overview_just_contains_the_scene() {
     let scene = squares(true);
-    let camera = Camera::overview(&scene.bounds, 300, 200);
+    let camera = Camera::overview(&scene.bounds, scene.up, 300, 200);
     let picture = render(&scene, &camera, |_, _| Rgb::ONE, PictureOptions::default()).unwrap();
     let seen: Vec<(usize, usize)> = (0..300 * 200)
         .map(|i| (i % 300, i / 300))
@@ -117,6 +117,32 @@ fn an_overview_just_contains_the_scene() {
     let [left, right, top, bottom] = [left, right, top, bottom].map(Option::unwrap);
     assert!(left > 0 && right < 299 && top > 0 && bottom < 199);
     assert!(right - left > 270 || bottom - top > 170, "{left} {right} {top} {bottom}");
+}
+
+/// Turned together with its upward direction, a scene looks the same.
+#[test]
+fn standard_views_follow_what_is_up() {
+    let upright = squares(true);
+    let turn = |p: DVec3| DVec3::new(p.x, p.z, -p.y);
+    let mut lying = upright.clone();
+    lying.vertices.iter_mut().for_each(|vertex| *vertex = turn(*vertex));
+    for polygon in &mut lying.polygons {
+        polygon.plane.normal = turn(polygon.plane.normal);
+    }
+    let corners = [upright.bounds.min, upright.bounds.max].map(turn);
+    lying.bounds.min = corners[0].min(corners[1]);
+    lying.bounds.max = corners[0].max(corners[1]);
+    for view in [Camera::overview, Camera::inside] {
+        for height in [f64::INFINITY, 0.0] {
+            let [upright, lying] = [(&upright, DVec3::Z), (&lying, DVec3::Y)].map(|(scene, up)| {
+                let cut_above = Some((up, height));
+                let options = PictureOptions { cut_above, ..Default::default() };
+                render(scene, &view(&scene.bounds, up, 60, 40), colour, options).unwrap()
+            });
+            let different = upright.rgb.iter().zip(&lying.rgb).filter(|(a, b)| a != b).count();
+            assert!(different < upright.rgb.len() / 50, "{different}");
+        }
+    }
 }
 
 #[test]

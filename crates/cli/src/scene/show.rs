@@ -4,11 +4,13 @@ use std::path::PathBuf;
 
 use clap::Args;
 use lab::{OpenScene, Solved, Stage, Which};
+use radiosity::glam::DVec3;
 use radiosity::{
     Camera, LocalEnvironment, PatchSize, Picture, PictureOptions, Rgb, Space, render, studio_light,
 };
 
-use crate::exit::Exit;
+use crate::arguments::direction;
+use crate::exit::{Exit, print_warnings};
 use crate::files::write;
 use crate::render::solved;
 
@@ -22,8 +24,11 @@ pub struct Arguments {
     /// Draw a picture to this PNG file
     #[arg(long, value_name = "OUT")]
     png: Option<PathBuf>,
+    /// Direction that is up in the picture [default: as the scene description says, else 0,0,1]
+    #[arg(long, value_name = "X,Y,Z", value_parser = direction, allow_hyphen_values = true)]
+    up: Option<DVec3>,
     /// Leave out of the picture what is above this height, in metres
-    #[arg(long, value_name = "Z", allow_hyphen_values = true)]
+    #[arg(long, value_name = "HEIGHT", allow_hyphen_values = true)]
     cut_above: Option<f64>,
     /// Show materials and lights without solving [default]
     #[arg(long, conflicts_with = "solved")]
@@ -39,6 +44,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         return Err(Exit::bad_input("--cut-above: not a height; expected metres, such as 2.5"));
     }
     let open = OpenScene::load(&arguments.scene)?;
+    print_warnings(open.all_warnings());
     let (_, whole) = meshed(&open);
     let mut text = numbers(&open, &whole);
     if let Some(path) = &arguments.png {
@@ -84,16 +90,16 @@ fn numbers(open: &OpenScene, whole: &LocalEnvironment) -> String {
         let [min, max] = [medium.bounds.min, medium.bounds.max].map(world);
         line("medium", format!("{min} to {max} m absorbs {} /m", medium.absorption));
     }
-    open.warnings.iter().for_each(|warning| line("warning", warning.clone()));
     text
 }
 
 fn picture(open: &OpenScene, arguments: &Arguments) -> Result<(Picture, String), Exit> {
-    let camera = Camera::overview(&open.scene.bounds, 1200, 800);
-    let cut_above = arguments.cut_above.map(|height| height - open.scene.origin.z);
+    let up = arguments.up.unwrap_or(open.scene.up);
+    let camera = Camera::overview(&open.scene.bounds, up, 1200, 800);
+    let cut_above = arguments.cut_above.map(|height| (up, height - open.scene.origin.dot(up)));
     let options = PictureOptions { cut_above, ..PictureOptions::default() };
     if !arguments.solved {
-        let picture = render(&open.scene, &camera, studio_light(&open.scene), options);
+        let picture = render(&open.scene, &camera, studio_light(&open.scene, up), options);
         return Ok((picture.map_err(Exit::bad_input)?, String::new()));
     }
     let stage = Stage::open(&arguments.scene, &Which { set: &[], row: None })?;

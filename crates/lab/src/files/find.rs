@@ -32,22 +32,30 @@ pub fn named_from(folder: &Path, name: &str) -> Result<PathBuf, String> {
     }
 }
 
+/// Whether the name of a file says that it is a JSON file.
+pub fn is_json(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"))
+}
+
 /// Finds what the name or path `name` in a file in `folder` means. A name is looked up in
 /// the folder of that kind beside the file's folder, then in the current folder; a path (with a
-/// slash or an ending) is relative to `folder`, else to the current folder.
+/// slash or an ending) is relative to `folder`, else to the current folder. What no folder has as a
+/// name is a path if there is such a file.
 ///
 /// # Errors
 /// If there is no such file: a message that lists the names there are.
 pub fn find(folder: &Path, kind: &FileKind, name: &str) -> Result<Found, String> {
-    if name.contains(['/', '\\']) || name.ends_with(".json") || name.ends_with(".obj") {
-        return [folder.join(name), PathBuf::from(name)]
-            .into_iter()
-            .find(|path| path.is_file())
-            .map(|path| Found { path, label: name.to_owned() })
-            .ok_or_else(|| {
-                let from = if folder == Path::new("") { Path::new(".") } else { folder };
-                format!("\"{name}\": no such file; expected a path from {}", from.display())
-            });
+    let at_path = || {
+        let path = [folder.join(name), PathBuf::from(name)].into_iter().find(|p| p.is_file())?;
+        Some(Found { path, label: name.to_owned() })
+    };
+    let ending = Path::new(name).extension().unwrap_or_default();
+    if name.contains(['/', '\\']) || ["json", "obj"].iter().any(|e| ending.eq_ignore_ascii_case(e))
+    {
+        return at_path().ok_or_else(|| {
+            let from = if folder == Path::new("") { Path::new(".") } else { folder };
+            format!("\"{name}\": no such file; expected a path from {}", from.display())
+        });
     }
     let inside = kind.folder;
     let folders = [beside(folder).join(inside), PathBuf::from(inside)];
@@ -56,6 +64,9 @@ pub fn find(folder: &Path, kind: &FileKind, name: &str) -> Result<Found, String>
         && let Some(path) = folders.iter().map(|s| s.join(&file)).find(|path| path.is_file())
     {
         return Ok(Found { path, label: format!("{inside}/{file}") });
+    }
+    if let Some(found) = at_path() {
+        return Ok(found);
     }
     let mut known: Vec<String> = folders.iter().flat_map(|folder| names(folder)).collect();
     known.sort();

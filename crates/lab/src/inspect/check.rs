@@ -8,28 +8,43 @@ use multicomputer::Trace;
 use crate::engine::simulator;
 use crate::files::find::Found;
 use crate::open::machine_file::MachineFile;
-use crate::open::scene::Scene;
+use crate::open::scene::{Scene, is_obj};
 use crate::planning::plan::Plan;
 use crate::planning::preparing::Preparing;
 
+/// What a valid file is.
+pub struct Checked {
+    /// Its kind, and how large it is.
+    pub what: String,
+    /// What was corrected in its scenes, and what is odd.
+    pub warnings: Vec<String>,
+}
+
+impl From<String> for Checked {
+    fn from(what: String) -> Checked {
+        Checked { what, warnings: Vec::new() }
+    }
+}
+
 /// Validates an experiment, a machine, a trace, a scene description or an OBJ file, with all that
 /// it names, and says what it is.
-pub fn check(path: &Path) -> Result<String, Fault> {
-    if path.extension().is_some_and(|ending| ending == "obj") {
+pub fn check(path: &Path) -> Result<Checked, Fault> {
+    if is_obj(path) {
         return scene(path, "an OBJ file");
     }
     let text = read_text(path)?;
     if json::without_mark(&text).trim_start().starts_with('[') {
         let file = path.display().to_string();
         let trace = Trace::from_json(&text, &file, usize::MAX).map_err(Fault::complete)?;
-        return Ok(format!("a trace, {} messages", trace.messages.len()));
+        return Ok(format!("a trace, {} messages", trace.messages.len()).into());
     }
     let document = Document::parse(path.display().to_string(), text)?;
     let has = |key: &str| document.value.get(key).is_some();
     if has("scene") || has("plots") {
         let plan = Plan::read(path, &[], &Preparing { finding: false, ..Preparing::default() })?;
         let (runs, problems) = (plan.runs.len(), plan.problems.len());
-        return Ok(format!("an experiment, {runs} runs of {problems} meshed scenes"));
+        let what = format!("an experiment, {runs} runs of {problems} meshed scenes");
+        return Ok(Checked { what, warnings: plan.warnings });
     }
     if has("obj") || has("made") {
         return scene(path, "a scene");
@@ -39,21 +54,20 @@ pub fn check(path: &Path) -> Result<String, Fault> {
         let (compute, service) = (machine.compute_nodes(), machine.service_nodes());
         let what = format!("a machine, {compute} compute nodes and {service} service nodes");
         if machine.processor.cycles.is_empty() {
-            return Ok(what + "; it prices no operation, so that it only replays traces");
+            return Ok((what + "; it prices no operation, so that it only replays traces").into());
         }
         simulator::check_machine(&machine)
             .map_err(|fault| Fault { file: path.display().to_string(), ..fault })?;
-        return Ok(what);
+        return Ok(what.into());
     }
     let message = "neither an experiment (\"scene\"), a scene (\"obj\" or \"made\") nor a machine (\"processor\"); \
                    expected one of them, a trace, or an OBJ file";
     Err(Fault::of_file(path.display(), message))
 }
 
-fn scene(path: &Path, kind: &str) -> Result<String, Fault> {
+fn scene(path: &Path, kind: &str) -> Result<Checked, Fault> {
     let found = Found { path: path.to_owned(), label: path.display().to_string() };
     let scene = Scene::load(&found)?;
-    let warnings = scene.warnings.iter().map(|warning| format!("\n  warning: {warning}"));
-    let polygons = scene.geometry.polygons.len();
-    Ok(format!("{kind}, {polygons} polygons{}", warnings.collect::<String>()))
+    let what = format!("{kind}, {} polygons", scene.geometry.polygons.len());
+    Ok(Checked { what, warnings: scene.all_warnings().cloned().collect() })
 }

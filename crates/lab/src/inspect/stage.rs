@@ -14,7 +14,7 @@ use crate::engine::simulator::{self, Light, Solved};
 use crate::experiment::accuracy;
 use crate::experiment::fields::Experiment;
 use crate::files::digest::FileDigest;
-use crate::files::find::{FileKind, find};
+use crate::files::find::{FileKind, find, is_json};
 use crate::open::problem;
 use crate::open::scene::Scene;
 use crate::open::settings::Settings;
@@ -26,6 +26,8 @@ pub struct Stage {
     pub title: String,
     /// The run that lights it; none if the scene is solved without a run.
     pub run: Option<StagedRun>,
+    /// What was corrected in its scene, and what is odd.
+    pub warnings: Vec<String>,
     problem: Arc<Problem>,
 }
 
@@ -59,7 +61,7 @@ impl Stage {
         if path.is_dir() {
             return Stage::of_results(path, which);
         }
-        if what.ends_with(".json") && path.is_file() {
+        if is_json(path) && path.is_file() {
             let document = Document::read(path)?;
             if document.value.get("scene").is_some() {
                 return Stage::of_run(path, document, which, None);
@@ -76,8 +78,9 @@ impl Stage {
         whole.hemisphere.pixels = PIXELS;
         let settings = Settings::of(&whole, &scene).map_err(fault)?;
         let problem = problem::problem(&scene.geometry, &settings).map_err(fault)?;
+        let warnings = scene.all_warnings().cloned().collect();
         let title = scene.file.and_then(|file| file.title).unwrap_or(found.label);
-        Ok(Stage { title, run: None, problem })
+        Ok(Stage { title, run: None, warnings, problem })
     }
 
     /// The run is simulated again from the experiment in the manifest.
@@ -114,7 +117,8 @@ impl Stage {
         let machine = plan.machines[run.machine].machine.clone();
         let kept = Arc::new(KeptShots::new(crate::host::host_memory::half_of_free_memory()));
         let run = StagedRun { row, changed, point, machine, kept };
-        Ok(Stage { title, run: Some(run), problem })
+        let warnings = plan.warnings.clone();
+        Ok(Stage { title, run: Some(run), warnings, problem })
     }
 
     /// The scene in its grid.

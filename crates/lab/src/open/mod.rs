@@ -1,6 +1,7 @@
 //! Scenes and machines: from their files to meshed and cut problems.
 
 pub mod cut; // The automatic grid and decomposition.
+pub mod lighting; // Warnings about a scene's light.
 pub mod machine_file; // A machine file, with the files that it extends.
 pub mod medium; // A participating medium in a scene description.
 pub mod open_scene; // A scene outside any experiment.
@@ -9,3 +10,5 @@ pub mod ray_bench; // Rays from random points, to measure the kernel with.
 pub mod scene; // A scene: description and geometry.
 pub mod scene_file; // A scene description.
 pub mod settings; // How a scene is meshed and cut, and its hemisphere.
+pub mod surface; // Changes of materials in a scene description.
+pub mod up; // The upward direction of a scene.

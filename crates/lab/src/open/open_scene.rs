@@ -19,6 +19,8 @@ pub struct OpenScene {
     pub scene: radiosity::Scene,
     /// What was corrected on loading.
     pub warnings: Vec<String>,
+    /// That it is dark, or seems to be inside out.
+    pub light_warning: Option<String>,
     /// Longest edge of a patch, metres.
     pub patch_size: f64,
     /// Longest edge of a patch that emits light, metres.
@@ -40,10 +42,16 @@ impl OpenScene {
             label: found.label,
             scene: scene.geometry,
             warnings: scene.warnings,
+            light_warning: scene.light_warning,
             patch_size: settings.patch_size,
             emitter_patch_size: settings.emitter_patch_size,
             cells: settings.cells.0,
         })
+    }
+
+    /// All warnings.
+    pub fn all_warnings(&self) -> impl Iterator<Item = &String> {
+        self.warnings.iter().chain(&self.light_warning)
     }
 
     /// The scene, if it has no participating media.

@@ -1,15 +1,18 @@
 //! A scene: its geometry, with its description if it has one.
 
 use std::cell::{Cell, RefCell};
+use std::io;
 use std::path::Path;
-use std::{fs, io};
 
 use config::{Document, Fault, Place, read_text};
+use radiosity::{ObjFile, read_regular_file};
 use scenemaker::{FLOORS, SceneText, make_building};
 
 use crate::files::digest::FileDigest;
 use crate::files::find::Found;
+use crate::open::lighting::{self, bright_ambients};
 use crate::open::scene_file::SceneFile;
+use crate::open::surface::{change_materials, change_objects};
 
 pub struct Scene {
     /// Its description; none for a bare OBJ file.
@@ -17,30 +20,38 @@ pub struct Scene {
     pub geometry: radiosity::Scene,
     /// What was corrected on loading.
     pub warnings: Vec<String>,
+    /// That it is dark, or seems to be inside out.
+    pub light_warning: Option<String>,
     pub digests: Vec<FileDigest>,
     /// Bytes of its geometry and materials.
     pub bytes: u64,
 }
 
 impl Scene {
+    /// All warnings.
+    pub fn all_warnings(&self) -> impl Iterator<Item = &String> {
+        self.warnings.iter().chain(&self.light_warning)
+    }
+
     /// Loads a scene description and its geometry, or a bare OBJ file.
     pub fn load(found: &Found) -> Result<Scene, Fault> {
         let (path, label) = (&found.path, Path::new(&found.label));
-        if path.extension().is_some_and(|ending| ending == "obj") {
-            return Scene::of_obj(path, label, &|path| fs::read(path));
+        if is_obj(path) {
+            let read = Read::of(path, label, &read_regular_file)?;
+            return read.scene(None);
         }
         let text = read_text(path)?;
         let digest = FileDigest::of(text.as_bytes(), &found.label);
         let document = Document::parse(path.display(), text)?;
         let file = SceneFile::of(&document)?;
-        let mut scene = match made(&document, &file)? {
+        let mut read = match made(&document, &file)? {
             Some(text) => {
                 let obj = format!("{}.obj", text.name);
-                let made = |path: &Path| match path.extension().and_then(|e| e.to_str()) {
-                    Some("obj") => Ok(text.obj.clone().into_bytes()),
-                    _ => Ok(text.mtl.clone().into_bytes()),
+                let made = |path: &Path| match is_obj(path) {
+                    true => Ok(text.obj.clone().into_bytes()),
+                    false => Ok(text.mtl.clone().into_bytes()),
                 };
-                Scene::of_obj(&path.with_file_name(&obj), &label.with_file_name(&obj), &made)?
+                Read::of(&path.with_file_name(&obj), &label.with_file_name(&obj), &made)?
             }
             None => {
                 let name = file.obj.as_deref().unwrap_or_default();
@@ -50,22 +61,43 @@ impl Scene {
                     let message = format!("\"{name}\": no such file in {}", folder.display());
                     return Err(document.fault(&Place::of("obj"), message));
                 }
-                Scene::of_obj(&obj, &label.with_file_name(name), &|path| fs::read(path))?
+                Read::of(&obj, &label.with_file_name(name), &read_regular_file)?
             }
         };
-        let origin = scene.geometry.origin;
-        scene.geometry.media = file.media.iter().map(|medium| medium.medium(origin)).collect();
-        scene.digests.insert(0, digest);
-        scene.file = Some(file);
-        Ok(scene)
+        let unknown = |field| {
+            let document = &document;
+            move |(name, message): (String, String)| {
+                document.fault(&Place::of(field).key(&name), message)
+            }
+        };
+        change_materials(&mut read.obj, &file.materials).map_err(unknown("materials"))?;
+        change_objects(&mut read.obj, &file.objects).map_err(unknown("objects"))?;
+        read.digests.insert(0, digest);
+        read.scene(Some(file))
     }
+}
 
-    /// The scene of an OBJ file and its material files, whose bytes `reader` gives.
-    fn of_obj(
+/// Whether the name of a file says that it is an OBJ file.
+pub fn is_obj(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("obj"))
+}
+
+/// An OBJ file with its material files, and what was read for them.
+struct Read {
+    obj: ObjFile,
+    /// What results call the OBJ file.
+    label: String,
+    digests: Vec<FileDigest>,
+    bytes: u64,
+}
+
+impl Read {
+    /// Reads files through `reader`.
+    fn of(
         path: &Path,
         label: &Path,
         reader: &dyn Fn(&Path) -> io::Result<Vec<u8>>,
-    ) -> Result<Scene, Fault> {
+    ) -> Result<Read, Fault> {
         let folder = path.parent().unwrap_or(Path::new(""));
         // Materials decide the light as much as the geometry does. Missing files give warnings.
         let (digests, bytes_read) = (RefCell::new(Vec::new()), Cell::new(0));
@@ -77,12 +109,27 @@ impl Scene {
             digests.borrow_mut().push(FileDigest::of(&bytes, &label));
             Ok(bytes)
         };
-        let (geometry, warnings) =
-            radiosity::load_obj_from(path, &digesting).map_err(Fault::complete)?;
-        let label = label.display();
-        let warnings = warnings.iter().map(|warning| format!("{label}: {warning}")).collect();
-        let (digests, bytes) = (digests.into_inner(), bytes_read.get());
-        Ok(Scene { file: None, geometry, warnings, digests, bytes })
+        let obj = ObjFile::read(path, &digesting).map_err(Fault::complete)?;
+        let label = label.display().to_string();
+        Ok(Read { obj, label, digests: digests.into_inner(), bytes: bytes_read.get() })
+    }
+
+    /// The scene, with its description if it has one.
+    fn scene(self, file: Option<SceneFile>) -> Result<Scene, Fault> {
+        let Read { mut obj, label, digests, bytes } = self;
+        let clamp = file.as_ref().and_then(|file| file.clamp_reflectance);
+        clamp.iter().for_each(|&most| obj.clamp_reflectances(most));
+        let bright_ambients = bright_ambients(&obj);
+        let (mut geometry, warnings) = obj.scene().map_err(Fault::complete)?;
+        let origin = geometry.origin;
+        if let Some(file) = &file {
+            geometry.up = file.up.direction();
+            geometry.media = file.media.iter().map(|medium| medium.medium(origin)).collect();
+        }
+        let say = |warning: String| format!("{label}: {warning}");
+        let light_warning = lighting::warning(&geometry, &bright_ambients).map(say);
+        let warnings = warnings.iter().map(|warning| say(warning.to_string())).collect();
+        Ok(Scene { file, geometry, warnings, light_warning, digests, bytes })
     }
 }
 

@@ -7,9 +7,12 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use crate::experiment::fields::is_default;
 use crate::files::counts::Triple;
 use crate::files::quantity::Length;
 use crate::open::medium::MediumFields;
+use crate::open::surface::{self, Surfaces};
+use crate::open::up::Up;
 
 /// The schema of a scene description.
 pub fn scene_schema() -> Value {
@@ -44,6 +47,19 @@ pub struct SceneFile {
     /// For a number of local environments, how many there are along x, y and z.
     #[serde(default)]
     pub cuts: BTreeMap<String, Triple>,
+    /// The axis that points up in pictures: "x", "-x", "y", "-y", "z" or "-z". Default: "z".
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub up: Up,
+    /// Reflectance, less than 1, to which greater ones are lowered. Default: they stay, but some surface has
+    /// to absorb light.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub clamp_reflectance: Option<f64>,
+    /// For a material, by name, values that replace those of the MTL file.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub materials: Surfaces,
+    /// For an object, by name, values that replace those of its materials.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub objects: Surfaces,
     /// What absorbs light on its way. Default: nothing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub media: Vec<MediumFields>,
@@ -85,6 +101,12 @@ impl SceneFile {
                 return Err(document.fault(&Place::of("media").item(i), fault));
             }
         }
+        if let Some(most) = file.clamp_reflectance.filter(|most| !(0.0..1.0).contains(most)) {
+            let message = format!("{most}; expected 0 or more and less than 1");
+            return Err(document.fault(&Place::of("clamp_reflectance"), message));
+        }
+        surface::check(document, "materials", &file.materials)?;
+        surface::check(document, "objects", &file.objects)?;
         if file.obj.is_some() == file.made.is_some() {
             let message = "expected either \"obj\", a file, or \"made\"";
             return Err(document.fault(&Place::default(), message));

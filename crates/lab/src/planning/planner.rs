@@ -112,7 +112,7 @@ impl<'a> Planner<'a> {
         files.extend(self.stored.iter().map(|stored| stored.digest.clone()));
         files.sort();
         files.dedup();
-        let warnings = scenes.iter().flat_map(|(scene, _)| scene.warnings.clone()).collect();
+        let warnings = scenes.iter().flat_map(|(scene, _)| scene.all_warnings().cloned()).collect();
         let plan = Plan {
             name,
             title,

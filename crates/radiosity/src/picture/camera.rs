@@ -1,6 +1,6 @@
 //! A pinhole camera, and standard views of a scene.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use crate::geometry::Bounds;
 
@@ -22,42 +22,45 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// A view down from the front right in which the box just fills the picture. z is up.
-    pub fn overview(bounds: &Bounds, width: u32, height: u32) -> Camera {
-        Camera::around(bounds, DVec3::new(-0.25, 0.9, -1.1), width, height)
+    /// A view down from the front right in which the box just fills the picture. `up` is a unit
+    /// vector.
+    pub fn overview(bounds: &Bounds, up: DVec3, width: u32, height: u32) -> Camera {
+        let direction = DQuat::from_rotation_arc(DVec3::Z, up) * DVec3::new(-0.25, 0.9, -1.1);
+        Camera::around(bounds, direction, up, width, height)
     }
 
     /// A view across the box from one of its corners, at eye height if the box is high enough.
-    pub fn inside(bounds: &Bounds, width: u32, height: u32) -> Camera {
+    /// `up` is a unit vector.
+    pub fn inside(bounds: &Bounds, up: DVec3, width: u32, height: u32) -> Camera {
         const EYE: f64 = 1.7;
+        // The box turned so that z is up.
+        let turn = DQuat::from_rotation_arc(up, DVec3::Z);
+        let turned = Bounds::of(corners(bounds).map(|corner| turn * corner));
         let at = |share: f64, height: f64| {
-            let floor = bounds.min + bounds.size() * DVec3::new(share, share, 0.0);
-            floor + DVec3::Z * height.min(0.6 * bounds.size().z)
+            let floor = turned.min + turned.size() * DVec3::new(share, share, 0.0);
+            turn.inverse() * (floor + DVec3::Z * height.min(0.6 * turned.size().z))
         };
         let field_of_view_degrees = 60.0;
         let (eye, target) = (at(0.05, EYE), at(0.95, 0.7 * EYE));
-        Camera { eye, target, field_of_view_degrees, ..Camera::overview(bounds, width, height) }
+        Camera { eye, target, field_of_view_degrees, ..Camera::overview(bounds, up, width, height) }
     }
 
-    /// A view along a direction in which the box just fills the picture. z is up.
-    pub fn around(bounds: &Bounds, direction: DVec3, width: u32, height: u32) -> Camera {
+    /// A view along a direction in which the box just fills the picture.
+    fn around(bounds: &Bounds, direction: DVec3, up: DVec3, width: u32, height: u32) -> Camera {
         const FILLED: f64 = 0.96;
         let centre = (bounds.min + bounds.max) * 0.5;
         let mut camera = Camera {
             eye: centre,
             target: centre + direction,
-            up: DVec3::Z,
+            up,
             field_of_view_degrees: 30.0,
             width,
             height,
         };
         let view = camera.view();
-        let corners = || {
-            (0..8u32).map(|i| {
-                let high = [i & 1, i >> 1 & 1, i >> 2].map(|bit| bit as f64);
-                bounds.size() * (DVec3::from_array(high) - 0.5)
-            })
-        };
+        let half = bounds.size() * 0.5;
+        let centred = Bounds { min: -half, max: half };
+        let corners = || corners(&centred);
         // At distance d behind the centre and shift s, a corner at (side, depth) is in the picture
         // if |side - s| <= slope (depth + d). This is the smallest d for which an s exists.
         let fit = |axis: DVec3, slope: f64| {
@@ -85,6 +88,12 @@ impl Camera {
         let aspect = f64::from(self.width) / f64::from(self.height);
         View { forward, right, up: right.cross(forward), slopes: [vertical * aspect, vertical] }
     }
+}
+
+/// The corners of a box.
+fn corners(bounds: &Bounds) -> impl Iterator<Item = DVec3> + use<> {
+    let ends = [bounds.min, bounds.max];
+    (0..8_usize).map(move |i| DVec3::new(ends[i & 1].x, ends[i >> 1 & 1].y, ends[i >> 2].z))
 }
 
 /// Orthonormal axes of a camera, and half the width and height that it sees per metre of depth.

@@ -1,6 +1,6 @@
 //! Binary glTF 2.0 files of meshes: <https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html>
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use serde_json::{Value, json};
 
 use super::render::{PictureError, check_finite};
@@ -18,7 +18,7 @@ const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 impl Mesh<'_> {
     /// A binary glTF file of the mesh with radiosity `light`, W/m², at its vertices and the origin
     /// of the scene at `origin`, metres. Also returns the radiosity shown as middle grey. The file
-    /// contains a rotation, since the upward axis is z here and y in glTF.
+    /// contains a rotation of `up`, a unit vector, to y, which is the upward axis in glTF.
     ///
     /// Vertices have the attributes `COLOR_0`, the linear brightness that a picture with this
     /// exposure and tone would show (viewers apply the sRGB transfer function), and `_RADIOSITY`,
@@ -30,6 +30,7 @@ impl Mesh<'_> {
         &self,
         light: &[Rgb],
         origin: DVec3,
+        up: DVec3,
         exposure: Exposure,
         tone: Tone,
     ) -> Result<(Vec<u8>, f64), PictureError> {
@@ -54,7 +55,11 @@ impl Mesh<'_> {
         });
         let indices = file.indices(self.triangles().flatten());
         let primitive = json!({ "attributes": attributes, "indices": indices, "material": 0 });
-        Ok((file.whole(&primitive, origin, middle_grey), middle_grey))
+        let nodes = json!([
+            { "rotation": to_y(up), "children": [1] },
+            { "translation": origin.to_array(), "mesh": 0 },
+        ]);
+        Ok((file.whole(&primitive, &nodes, middle_grey), middle_grey))
     }
 
     /// Middle grey of all triangles, weighted by area, W/m².
@@ -66,6 +71,15 @@ impl Mesh<'_> {
         };
         let seen: Vec<(Rgb, f64)> = self.triangles().map(of_triangle).collect();
         geometric_mean(&seen.iter().copied())
+    }
+}
+
+/// The rotation of a unit vector to y, as a quaternion.
+fn to_y(up: DVec3) -> [f64; 4] {
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    match up {
+        DVec3::Z => [-half, 0.0, 0.0, half],
+        up => DQuat::from_rotation_arc(up, DVec3::Y).normalize().to_array(),
     }
 }
 
@@ -109,8 +123,7 @@ impl File {
     }
 
     /// The whole file: a header, a JSON chunk, a binary chunk.
-    fn whole(mut self, primitive: &Value, origin: DVec3, middle_grey: f64) -> Vec<u8> {
-        let half = std::f64::consts::FRAC_1_SQRT_2;
+    fn whole(mut self, primitive: &Value, nodes: &Value, middle_grey: f64) -> Vec<u8> {
         let json = json!({
             "asset": {
                 "version": "2.0",
@@ -120,10 +133,7 @@ impl File {
             "extensionsUsed": ["KHR_materials_unlit"],
             "scene": 0,
             "scenes": [{ "nodes": [0] }],
-            "nodes": [
-                { "rotation": [-half, 0.0, 0.0, half], "children": [1] },
-                { "translation": origin.to_array(), "mesh": 0 },
-            ],
+            "nodes": nodes,
             "meshes": [{ "primitives": [primitive] }],
             "materials": [{
                 "pbrMetallicRoughness": { "metallicFactor": 0.0 },

@@ -2,7 +2,7 @@
 
 use std::io;
 
-use glam::{DVec3, Vec3};
+use glam::{DQuat, DVec3, Vec3};
 
 use super::camera::Camera;
 use super::tone::{Exposure, Tone, geometric_mean, srgb};
@@ -25,8 +25,8 @@ pub struct PictureOptions {
     pub exposure: Exposure,
     /// How brightness is limited to white.
     pub tone: Tone,
-    /// Omits everything above this height (z, local, metres), to show one floor.
-    pub cut_above: Option<f64>,
+    /// Omits everything above this local height, metres, along a unit vector, to show one floor.
+    pub cut_above: Option<(DVec3, f64)>,
 }
 
 /// An sRGB picture with eight bits per component.
@@ -85,7 +85,8 @@ pub fn render(
         return Err(PictureError::Size { width, height });
     }
     let mut buffer = ZBuffer::new(camera, SAMPLES);
-    buffer.draw(scene, options.cut_above.unwrap_or(f64::INFINITY));
+    let (up, highest) = options.cut_above.unwrap_or((DVec3::Z, f64::INFINITY));
+    buffer.draw(scene, up, highest);
     let samples: Vec<Sample> = buffer
         .seen()
         .map(|seen| seen.map(|(polygon, point)| colour(polygon, point).as_vec3()))
@@ -122,9 +123,9 @@ fn encode_pixels(samples: &[Sample], width: usize, shown: impl Fn(Vec3) -> Rgb) 
 }
 
 /// Simple lighting for a scene without a solution: lights glow, and all other surfaces are shaded
-/// by their orientation, so that the faces of a box differ.
-pub fn studio_light(scene: &Scene) -> impl Fn(u32, DVec3) -> Rgb {
-    let sun = DVec3::new(0.45, -0.25, 0.8);
+/// by their orientation, so that the faces of a box differ. `up` is a unit vector.
+pub fn studio_light(scene: &Scene, up: DVec3) -> impl Fn(u32, DVec3) -> Rgb {
+    let sun = DQuat::from_rotation_arc(DVec3::Z, up) * DVec3::new(0.45, -0.25, 0.8);
     move |polygon, _| {
         let polygon = &scene.polygons[polygon as usize];
         let material = scene.material(polygon);

@@ -37,7 +37,7 @@ impl ZBuffer {
     }
 
     /// Draws the polygon fronts of a scene below a height.
-    pub(crate) fn draw(&mut self, scene: &Scene, height: f64) {
+    pub(crate) fn draw(&mut self, scene: &Scene, up: DVec3, height: f64) {
         // Near plane.
         let near = 1e-5 * scene.bounds.size().length();
         let forward = self.view.forward;
@@ -48,7 +48,7 @@ impl ZBuffer {
                 continue;
             }
             let corners: Vec<DVec3> = scene.corners(polygon).collect();
-            let below = clip_to_slab(&corners, DVec3::Z, f64::NEG_INFINITY, height);
+            let below = clip_to_slab(&corners, up, f64::NEG_INFINITY, height);
             let ahead = clip_to_slab(&below, forward, depth, f64::INFINITY);
             self.fill(index as u32, plane, &ahead);
         }

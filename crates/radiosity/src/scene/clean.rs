@@ -10,7 +10,7 @@ use glam::DVec3;
 use super::coplanar::share_planes;
 use super::error::{FARTHEST, SceneError};
 use super::overlaps::{order, sort_overlaps};
-use super::scene::{Face, Material, Plane, Polygon, Scene};
+use super::scene::{Face, Material, Plane, Polygon, Rgb, Scene};
 use super::warnings::{WarningKind, Warnings};
 use crate::geometry::Bounds;
 
@@ -62,6 +62,7 @@ impl Scene {
             let found = format!("no surface: {} faces, none with an area", faces.len());
             return Err(SceneError::Invalid(format!("{found}; expected at least one")));
         }
+        check_absorption(&polygons, &materials)?;
         share_planes(&mut polygons, tolerance);
         let vertices = keep_used(&welded, &mut polygons);
         for overlap in sort_overlaps(&mut polygons, &vertices, &materials, tolerance) {
@@ -71,9 +72,25 @@ impl Scene {
             });
         }
         let bounds = Bounds::of(vertices.iter().copied());
-        let media = Vec::new();
-        Ok((Scene { vertices, polygons, materials, objects, origin, bounds, media }, warnings))
+        let (up, media) = (DVec3::Z, Vec::new());
+        let scene = Scene { vertices, polygons, materials, objects, origin, bounds, up, media };
+        Ok((scene, warnings))
     }
+}
+
+/// Rejects surfaces that all reflect everything of a colour: its light might never end.
+fn check_absorption(polygons: &[Polygon], materials: &[Material]) -> Result<(), SceneError> {
+    let material = |polygon: &Polygon| &materials[polygon.material as usize];
+    let least = polygons.iter().map(|polygon| material(polygon).reflectance).reduce(Rgb::min);
+    if least.is_some_and(|least| least.max_element() == 1.0) {
+        let name = &material(&polygons[0]).name;
+        let found =
+            format!("material \"{name}\": reflectance (Kd) of a colour is 1, as of all faces");
+        let expected =
+            "some surface that absorbs light; \"clamp_reflectance\" in a scene file lowers all";
+        return Err(SceneError::Invalid(format!("{found}; expected {expected}")));
+    }
+    Ok(())
 }
 
 /// Names a face by its object and its number in it, counted from 1.

@@ -9,6 +9,10 @@ use super::scene::{Material, Rgb};
 /// Largest allowed coordinate, metres. Beyond it f64 no longer resolves the details of a scene.
 pub(crate) const FARTHEST: f64 = 1e12;
 
+/// Least and largest emission, W/m². Beyond them powers, and squares of them, could overflow or vanish.
+const LEAST_EMISSION: f64 = 1e-30;
+const MOST_EMISSION: f64 = 1e30;
+
 /// Why a scene cannot be read or built.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
@@ -50,17 +54,37 @@ impl Material {
     /// # Errors
     /// [`SceneError::Invalid`].
     pub fn check(&self) -> Result<(), SceneError> {
-        let Material { name, reflectance, emission, .. } = self;
-        let wrong = |what: &str, Rgb { x, y, z }: Rgb, expected: &str| {
-            let found = format!("material \"{name}\": {what} is {x} {y} {z}");
-            Err(SceneError::Invalid(format!("{found}; expected {expected}")))
-        };
-        if !(reflectance.cmpge(Rgb::ZERO) & reflectance.cmplt(Rgb::ONE)).all() {
-            return wrong("reflectance (Kd)", *reflectance, "0 or more and less than 1");
-        }
-        if !(emission.is_finite() && emission.cmpge(Rgb::ZERO).all()) {
-            return wrong("emission (Ke)", *emission, "finite values, 0 or more");
-        }
-        Ok(())
+        self.check_reflectance().and_then(|()| self.check_emission()).map_err(SceneError::Invalid)
     }
+
+    pub(crate) fn check_reflectance(&self) -> Result<(), String> {
+        let Material { name, reflectance, .. } = self;
+        if (reflectance.cmpge(Rgb::ZERO) & reflectance.cmple(Rgb::ONE)).all() {
+            return Ok(());
+        }
+        let found = format!("material \"{name}\": reflectance (Kd) is {}", values(*reflectance));
+        Err(format!("{found}; expected 0 to 1"))
+    }
+
+    pub(crate) fn check_emission(&self) -> Result<(), String> {
+        let Material { name, emission, .. } = self;
+        // NaN fails the comparison too.
+        let possible = |&e: &f64| e == 0.0 || (LEAST_EMISSION..=MOST_EMISSION).contains(&e);
+        if emission.to_array().iter().all(possible) {
+            return Ok(());
+        }
+        let found = format!("material \"{name}\": emission (Ke) is {}", values(*emission));
+        Err(format!("{found}; expected 0, or {LEAST_EMISSION:e} to {MOST_EMISSION:e} W/m²"))
+    }
+}
+
+/// Three numbers as a message shows them: very large and very small ones with an exponent.
+pub(crate) fn values(rgb: Rgb) -> String {
+    let text = |value: f64| match value.abs() {
+        size if size.is_finite() && size != 0.0 && !(1e-6..1e9).contains(&size) => {
+            format!("{value:e}")
+        }
+        _ => value.to_string(),
+    };
+    rgb.to_array().map(text).join(" ")
 }

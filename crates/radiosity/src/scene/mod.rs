@@ -11,6 +11,8 @@ mod text; // text files, and lines in them
 mod warnings; // what cleaning dropped, changed or replaced
 
 pub use error::SceneError;
-pub use obj::{load_obj, load_obj_from};
+pub use mtl::MtlMaterial;
+pub use obj::{ObjFile, load_obj, load_obj_from};
 pub use scene::{DEFAULT_REFLECTANCE, Face, Material, Plane, Polygon, Rgb, Scene};
+pub use text::read_regular_file;
 pub use warnings::{Warning, WarningKind, Warnings};

@@ -1,23 +1,25 @@
-//! Wavefront OBJ files, read with tobj.
+//! Wavefront OBJ files. Used are `v`, `f`, `o`, `g`, `usemtl` and `mtllib`; all else is ignored.
 //!
-//! Used are `v`, `f`, `o`, `g`, `usemtl` and `mtllib`. All other lines are removed before tobj
-//! reads the text: it rejects files for errors that do not matter here, such as colours of only
-//! some vertices or a wrong index of a texture coordinate.
+//! tobj parses the vertices and faces. It gets them without comments, weights, colours and texture
+//! coordinates: it rejects files for errors in these, and divides coordinates by weights. Names are
+//! resolved here, since tobj keeps the comments in them and rejects empty ones.
 
-use std::cell::RefCell;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::io::Cursor;
-use std::path::Path;
-use std::{fs, io};
+use std::io::{self, Cursor};
+use std::path::{Path, PathBuf};
 
 use glam::DVec3;
-use tobj::{LoadError, LoadOptions, Model};
+use tobj::{LoadError, LoadOptions, Mesh};
 
 use super::error::{FARTHEST, SceneError};
-use super::mtl::Library;
-use super::scene::{Face, Material, Scene};
-use super::text;
+use super::mtl::{Library, MtlMaterial};
+use super::scene::{Face, Scene};
+use super::text::{self, Reader, read_regular_file};
 use super::warnings::{WarningKind, Warnings};
+
+/// Name of the object of faces before the first `o` or `g`.
+const UNNAMED: &str = "unnamed_object";
 
 /// Reads a scene from an OBJ file and its material files, whose paths are relative to the OBJ file.
 ///
@@ -28,7 +30,7 @@ use super::warnings::{WarningKind, Warnings};
 /// A file that cannot be read or has invalid content. The message names file, line and value, and
 /// states what was expected.
 pub fn load_obj(path: &Path) -> Result<(Scene, Warnings), SceneError> {
-    load_obj_from(path, &|path| fs::read(path))
+    load_obj_from(path, &read_regular_file)
 }
 
 /// Like [`load_obj`], but reads files through `reader`.
@@ -39,73 +41,248 @@ pub fn load_obj_from(
     path: &Path,
     reader: &dyn Fn(&Path) -> io::Result<Vec<u8>>,
 ) -> Result<(Scene, Warnings), SceneError> {
-    let text = text::read(path, reader)
-        .map_err(|source| SceneError::Unreadable { path: path.to_owned(), source })?;
-    let text = relevant_lines(&text);
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let library = RefCell::new(Library::default());
-
-    let mut bytes = Cursor::new(text.as_bytes());
-    let loaded = tobj::load_obj_buf(&mut bytes, &LoadOptions::default(), |name| {
-        library.borrow_mut().load(&folder.join(name), reader)
-    });
-    let mut library = library.into_inner();
-    if let Some(error) = library.error {
-        return Err(error);
-    }
-    let (models, materials) =
-        loaded.map_err(|error| diagnose(path, &text, bytes.position(), error))?;
-    let materials = materials.unwrap_or_default();
-    let mut materials: Vec<Material> = materials.iter().map(|m| library.material(m)).collect();
-
-    let Faces { faces, objects, warnings } = Faces::of(&models, &materials, &text);
-    if warnings.count(WarningKind::MissingMaterial) > 0 {
-        materials.push(Material::default());
-    }
-    let (scene, cleaned) = Scene::new(&faces, materials, objects).map_err(|error| {
-        let line = matches!(error, SceneError::Corner { .. }).then(|| far_vertex(&text)).flatten();
-        text::wrong(path, line, error.to_string())
-    })?;
-    Ok((scene, library.warnings.and(warnings).and(cleaned)))
+    ObjFile::read(path, reader)?.scene()
 }
 
-/// The lines that are used, without comments. Line numbers do not change.
-fn relevant_lines(text: &str) -> String {
-    let mut relevant = String::with_capacity(text.len());
-    let mut lines = text.lines();
-    while let Some(line) = lines.next() {
-        let mut words = line.split_whitespace();
-        match words.next() {
-            // Three coordinates and a colour, which is removed.
-            Some("v") if words.clone().count() == 6 => {
-                relevant += "v";
-                words.take(3).for_each(|coordinate| relevant.extend([" ", coordinate]));
-            }
-            Some("v" | "f") => {
-                let mut skipped = String::new();
-                let mut part = without_comment(line);
-                while let Some(joined) = part.strip_suffix('\\') {
-                    relevant.extend([joined, " "]);
-                    skipped.push('\n');
-                    part = without_comment(lines.next().unwrap_or_default());
-                }
-                relevant.extend([part, &skipped]);
-            }
-            Some(key @ ("o" | "g" | "usemtl" | "mtllib")) => {
-                relevant.extend([key, " ", line.trim_start()[key.len()..].trim()]);
-            }
-            _ => {}
+/// The contents of an OBJ file and its material files. They can be changed before they become a
+/// scene.
+pub struct ObjFile {
+    path: PathBuf,
+    /// Its faces, with the numbers of their materials and objects.
+    pub faces: Vec<Face>,
+    /// The materials of its material files, and a grey one if faces have none.
+    pub materials: Vec<MtlMaterial>,
+    /// Names of objects and groups that have faces. Those of the same name are one object.
+    pub objects: Vec<String>,
+    /// What was missing or ignored.
+    pub warnings: Warnings,
+    /// The line of the first vertex with a coordinate that is not finite or too large.
+    far_vertex: Option<usize>,
+}
+
+impl ObjFile {
+    /// Reads an OBJ file and its material files through `reader`.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or has vertices, faces or material names that are invalid.
+    pub fn read(path: &Path, reader: Reader) -> Result<ObjFile, SceneError> {
+        let text = text::read(path, reader)
+            .map_err(|source| SceneError::Unreadable { path: path.to_owned(), source })?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let mut library = Library::default();
+        let statements: Vec<Statement> = statements(&text).collect();
+        for statement in statements.iter().filter(|statement| statement.key == "mtllib") {
+            library.load(folder, &statement.rest, reader);
         }
-        relevant.push('\n');
+        if let Some(error) = library.nameless {
+            return Err(error);
+        }
+        let corners = corners(&statements).map_err(|error| error.in_file(path))?;
+        let far_vertex = far_vertex(&statements, &corners);
+        let Faces { faces, objects, warnings } = Faces::of(&statements, &library, corners);
+        let mut materials = library.materials;
+        if warnings.count(WarningKind::MissingMaterial) > 0 {
+            materials.push(MtlMaterial::grey());
+        }
+        let warnings = library.warnings.and(warnings);
+        Ok(ObjFile { path: path.to_owned(), faces, materials, objects, warnings, far_vertex })
     }
-    relevant
+
+    /// The materials that faces use.
+    pub fn used_materials(&self) -> impl Iterator<Item = &MtlMaterial> {
+        let used = self.use_of_materials();
+        self.materials.iter().zip(used).filter_map(|(material, used)| used.then_some(material))
+    }
+
+    /// Lowers all reflectances in use that are above `most`, but not above 1, with a warning.
+    pub fn clamp_reflectances(&mut self, most: f64) {
+        for (number, used) in self.use_of_materials().into_iter().enumerate() {
+            if used && let Some(change) = self.materials[number].clamp(most) {
+                self.warnings.add(WarningKind::Clamped, || change);
+            }
+        }
+    }
+
+    /// The scene of the faces, cleaned, and all warnings.
+    ///
+    /// # Errors
+    /// A material that is used and impossible, or faces that do not make a scene.
+    pub fn scene(mut self) -> Result<(Scene, Warnings), SceneError> {
+        let used = self.use_of_materials();
+        let mut materials = Vec::with_capacity(self.materials.len());
+        for (material, used) in self.materials.iter().zip(used) {
+            materials.push(if used {
+                material.used(&mut self.warnings)?
+            } else {
+                material.unused()
+            });
+        }
+        let cleaned = Scene::new(&self.faces, materials, self.objects);
+        let (scene, warnings) = cleaned.map_err(|error| {
+            let line = self.far_vertex.filter(|_| matches!(error, SceneError::Corner { .. }));
+            text::wrong(&self.path, line, error.to_string())
+        })?;
+        Ok((scene, self.warnings.and(warnings)))
+    }
+
+    /// Whether each material is that of a face.
+    fn use_of_materials(&self) -> Vec<bool> {
+        let mut used = vec![false; self.materials.len()];
+        for face in &self.faces {
+            used[face.material as usize] = true;
+        }
+        used
+    }
 }
 
-fn without_comment(line: &str) -> &str {
+/// A line that is used. Numbers may go on in the next line, after a backslash.
+struct Statement<'a> {
+    /// Its line, or its first one, counted from 1.
+    line: usize,
+    key: &'a str,
+    /// Numbers without comments; or a name, perhaps with a comment.
+    rest: Cow<'a, str>,
+}
+
+impl Statement<'_> {
+    /// The weight of a vertex of four numbers, and the word that it is.
+    fn weight(&self) -> Option<(f64, &str)> {
+        let words: Vec<&str> = self.rest.split_whitespace().collect();
+        let &[_, _, _, word] = words.as_slice() else { return None };
+        word.parse().ok().filter(|_| self.key == "v").map(|weight| (weight, word))
+    }
+
+    /// A line for tobj, empty without geometry. Vertices have 3 numbers; with a weight 4, with a
+    /// colour 6, with both 7: the first 3 stay. Wrong vertices stay as they are.
+    fn geometry(&self) -> String {
+        let words = self.rest.split_whitespace();
+        let words: Vec<&str> = match (self.key, words.clone().count()) {
+            ("v", 6 | 7) => words.take(3).collect(),
+            ("v", 4) if self.weight().is_some() => words.take(3).collect(),
+            ("v", _) => words.collect(),
+            // The slash keeps a corner without a number, which is an error.
+            ("f", _) => words.flat_map(|word| word.split_inclusive('/').next()).collect(),
+            _ => return "\n".to_owned(),
+        };
+        format!("{} {}\n", self.key, words.join(" "))
+    }
+}
+
+fn statements(text: &str) -> impl Iterator<Item = Statement<'_>> {
+    let mut lines = (1..).zip(text.lines());
+    std::iter::from_fn(move || {
+        loop {
+            let (line, found) = lines.next()?;
+            let found = found.trim();
+            let (key, rest) = found.split_once(char::is_whitespace).unwrap_or((found, ""));
+            if ["o", "g", "usemtl", "mtllib"].contains(&key) {
+                return Some(Statement { line, key, rest: Cow::Borrowed(rest.trim()) });
+            }
+            if ["v", "f"].contains(&key) {
+                let mut rest = Cow::Borrowed(numbers(rest));
+                while let Some(joined) = rest.strip_suffix('\\') {
+                    let next = lines.next().map_or("", |(_, next)| numbers(next));
+                    rest = Cow::Owned(format!("{joined} {next}"));
+                }
+                return Some(Statement { line, key, rest });
+            }
+        }
+    })
+}
+
+/// Numbers without a comment.
+fn numbers(line: &str) -> &str {
     line.split('#').next().unwrap_or_default().trim_end()
 }
 
-/// Faces converted from the meshes of tobj.
+/// What is wrong with a line.
+struct Problem {
+    line: usize,
+    problem: String,
+}
+
+impl Problem {
+    /// A vertex or a face that cannot be parsed.
+    fn of(statement: &Statement) -> Problem {
+        let what = match statement.key {
+            "v" => "position parse error; expected three numbers: v X Y Z",
+            _ => "face parse error; expected numbers of vertices: f 1 2 3, or f 1/1/1 2/2/2 3/3/3",
+        };
+        let found = format!("{} {}", statement.key, statement.rest.trim());
+        let found: String = found.trim().chars().take(60).collect();
+        Problem { line: statement.line, problem: format!("\"{found}\": {what}") }
+    }
+
+    fn in_file(self, path: &Path) -> SceneError {
+        text::wrong(path, Some(self.line), self.problem)
+    }
+}
+
+/// The corners of each face, in the order of the file.
+///
+/// tobj does not get objects and materials: it would refuse vertices after the end of the object
+/// that uses them.
+fn corners(statements: &[Statement]) -> Result<Vec<Vec<DVec3>>, Problem> {
+    let text: String = statements.iter().map(Statement::geometry).collect();
+    let mut bytes = Cursor::new(text.as_bytes());
+    let none = |_: &Path| Ok(Default::default());
+    let loaded = tobj::load_obj_buf(&mut bytes, &LoadOptions::default(), none);
+    let (models, _) = loaded.map_err(|error| {
+        let read = text[..bytes.position() as usize].lines().count();
+        let wrong = (error == LoadError::FaceVertexOutOfBounds).then(|| wrong_corner(statements));
+        wrong.flatten().unwrap_or_else(|| Problem::of(&statements[read - 1]))
+    })?;
+    Ok(models.iter().flat_map(|model| corners_of(&model.mesh)).collect())
+}
+
+fn corners_of(mesh: &Mesh) -> impl Iterator<Item = Vec<DVec3>> {
+    let mut indices = mesh.indices.iter();
+    // tobj gives no numbers of corners if all faces are triangles.
+    let triangles = if mesh.face_arities.is_empty() { mesh.indices.len() / 3 } else { 0 };
+    let counts = mesh.face_arities.iter().copied().chain(std::iter::repeat_n(3, triangles));
+    counts.map(move |count| {
+        let corners = indices.by_ref().take(count as usize);
+        corners.map(|&v| DVec3::from_slice(&mesh.positions[3 * v as usize..])).collect()
+    })
+}
+
+/// The first corner without a number or without a vertex: tobj reports no line of it. Negative
+/// numbers count back from the last of the vertices before the face.
+fn wrong_corner(statements: &[Statement]) -> Option<Problem> {
+    let total = statements.iter().filter(|statement| statement.key == "v").count() as i64;
+    let mut before = 0;
+    statements.iter().find_map(|statement| {
+        before += i64::from(statement.key == "v");
+        let mut words = statement.rest.split_whitespace().filter(|_| statement.key == "f");
+        words.find_map(|word| {
+            let number = word.split('/').next().unwrap_or_default();
+            let Ok(wanted) = number.parse::<i64>() else { return Some(Problem::of(statement)) };
+            let limit = if wanted < 0 { before } else { total };
+            if (1..=limit).contains(&wanted.saturating_abs()) {
+                return None;
+            }
+            let problem = format!("vertex \"{number}\" of a face; expected 1 to {limit} here");
+            Some(Problem { line: statement.line, problem })
+        })
+    })
+}
+
+/// The line of the first vertex with a coordinate that is not finite or too large, if a face has
+/// such a corner.
+fn far_vertex(statements: &[Statement], corners: &[Vec<DVec3>]) -> Option<usize> {
+    let far = |point: DVec3| !point.abs().cmple(DVec3::splat(FARTHEST)).all();
+    if !corners.iter().flatten().any(|&corner| far(corner)) {
+        return None;
+    }
+    let first = statements.iter().filter(|statement| statement.key == "v").find(|vertex| {
+        let mut numbers = vertex.rest.split_whitespace().take(3).flat_map(str::parse);
+        numbers.any(|number| far(DVec3::splat(number)))
+    });
+    first.map(|vertex| vertex.line)
+}
+
+/// The faces of a file.
+#[derive(Default)]
 struct Faces {
     faces: Vec<Face>,
     objects: Vec<String>,
@@ -113,106 +290,54 @@ struct Faces {
 }
 
 impl Faces {
-    /// Groups of the same name are one object. Faces without a material get the next index.
-    fn of(models: &[Model], materials: &[Material], text: &str) -> Faces {
-        let mut all =
-            Faces { faces: Vec::new(), objects: Vec::new(), warnings: Warnings::default() };
+    /// Groups of the same name are one object. Faces without a material get the next number.
+    fn of(statements: &[Statement], library: &Library, corners: Vec<Vec<DVec3>>) -> Faces {
+        let mut all = Faces::default();
         let mut numbers = BTreeMap::new();
-        for Model { name, mesh } in models {
-            let object = *numbers.entry(name).or_insert(all.objects.len() as u32);
-            if object as usize == all.objects.len() {
-                all.objects.push(name.clone());
-            }
-            let material = mesh.material_id.unwrap_or(materials.len()) as u32;
-            let mut indices = mesh.indices.as_slice();
-            // tobj gives no numbers of corners if all faces are triangles.
-            let triangles = std::iter::repeat_n(3, indices.len() / 3);
-            let arities: Vec<u32> = match mesh.face_arities.as_slice() {
-                [] => triangles.collect(),
-                arities => arities.to_vec(),
-            };
-            for arity in arities {
-                let (corners, rest) = indices.split_at(arity as usize);
-                indices = rest;
-                let points = corners.iter().map(|&v| vertex(mesh, v)).collect();
-                all.faces.push(Face { points, material, object });
-                if mesh.material_id.is_none() {
-                    all.warnings.add(WarningKind::MissingMaterial, || {
-                        format!("object \"{name}\"{}", unknown_material(text, materials))
-                    });
+        let mut corners = corners.into_iter();
+        let (mut object, mut material) = (UNNAMED, None);
+        for statement in statements {
+            match (statement.key, text::name(&statement.rest)) {
+                ("v", _) => {
+                    if let Some((weight, word)) = statement.weight()
+                        && weight != 1.0
+                    {
+                        let first = || format!("line {}, {word}", statement.line);
+                        all.warnings.add(WarningKind::Weight, first);
+                    }
                 }
+                ("o" | "g", "") => object = UNNAMED,
+                ("o" | "g", name) => object = name,
+                ("usemtl", _) => material = library.find(&statement.rest),
+                ("f", _) => {
+                    let number = *numbers.entry(object).or_insert(all.objects.len() as u32);
+                    if number as usize == all.objects.len() {
+                        all.objects.push(object.to_owned());
+                    }
+                    let points = corners.next().unwrap_or_default();
+                    let of = material.unwrap_or(library.materials.len() as u32);
+                    all.faces.push(Face { points, material: of, object: number });
+                    if material.is_none() {
+                        all.warnings.add(WarningKind::MissingMaterial, || {
+                            format!("object \"{object}\"{}", unknown_material(statements, library))
+                        });
+                    }
+                }
+                _ => {}
             }
         }
         all
     }
 }
 
-fn vertex(mesh: &tobj::Mesh, number: u32) -> DVec3 {
-    DVec3::from_slice(&mesh.positions[3 * number as usize..])
-}
-
-/// The first `usemtl` line whose material no file defines, as text for a warning.
-fn unknown_material(text: &str, materials: &[Material]) -> String {
-    let unknown = text.lines().enumerate().find_map(|(number, line)| {
-        let name = line.strip_prefix("usemtl ")?;
-        (!materials.iter().any(|m| m.name == name)).then_some((number + 1, name))
+/// The first material that no file defines, as text for a warning.
+fn unknown_material(statements: &[Statement], library: &Library) -> String {
+    let unknown = statements.iter().filter(|s| s.key == "usemtl").find_map(|statement| {
+        let name = text::without_comment(&statement.rest);
+        (!name.is_empty() && library.find(&statement.rest).is_none())
+            .then_some((statement.line, name))
     });
     unknown.map_or_else(String::new, |(line, name)| {
         format!("; line {line} asks for \"{name}\", which no material file defines")
     })
-}
-
-/// Turns an error of tobj, which stopped after `read` bytes, into one with line and value.
-fn diagnose(path: &Path, text: &str, read: u64, error: LoadError) -> SceneError {
-    if error == LoadError::FaceVertexOutOfBounds
-        && let Some((line, problem)) = wrong_index(text)
-    {
-        return text::wrong(path, Some(line), problem);
-    }
-    let before = &text[..read as usize];
-    let (line, found) = (1..).zip(before.lines()).last().unwrap_or_default();
-    let expected = match found.split_whitespace().next() {
-        Some("v") => "expected three numbers: v X Y Z",
-        Some("f") => "expected numbers of vertices: f 1 2 3, or f 1/1/1 2/2/2 3/3/3",
-        _ => "expected a name",
-    };
-    let found: String = found.chars().take(60).collect();
-    text::wrong(path, Some(line), format!("\"{found}\": {error}; {expected}"))
-}
-
-/// The first face with a vertex that does not exist or, failing that, is defined later.
-fn wrong_index(text: &str) -> Option<(usize, String)> {
-    let total = text.lines().filter(|line| is_vertex(line)).count() as i64;
-    let search = |forward: bool| {
-        let mut before = 0;
-        text.lines().enumerate().find_map(|(number, line)| {
-            before += i64::from(is_vertex(line));
-            let limit = if forward { total } else { before };
-            let words = line.trim_start().strip_prefix('f')?.split_whitespace();
-            let mut vertices = words.map(|word| word.split('/').next().unwrap_or_default());
-            let wrong = vertices.find(|word| match word.parse::<i64>() {
-                Ok(index) if index < 0 => before.checked_add(index).is_none_or(|v| v < 0),
-                Ok(index) => index == 0 || index > limit,
-                Err(_) => true,
-            })?;
-            let problem = format!("vertex \"{wrong}\" of a face; expected 1 to {limit} here");
-            Some((number + 1, problem))
-        })
-    };
-    search(true).or_else(|| search(false))
-}
-
-/// The line of the first vertex with a coordinate that is not finite or too large.
-fn far_vertex(text: &str) -> Option<usize> {
-    let far = |line: &str| {
-        let mut numbers = line.split_whitespace().skip(1).flat_map(str::parse::<f64>);
-        let point = [numbers.next(), numbers.next(), numbers.next()];
-        let w = numbers.next().unwrap_or(1.0);
-        point.iter().flatten().any(|c| c.is_nan() || (c / w).abs() > FARTHEST)
-    };
-    text.lines().position(|line| is_vertex(line) && far(line)).map(|index| index + 1)
-}
-
-fn is_vertex(line: &str) -> bool {
-    line.split_whitespace().next() == Some("v")
 }

@@ -13,7 +13,7 @@ pub type Rgb = DVec3;
 pub struct Material {
     /// Name in the material file.
     pub name: String,
-    /// Diffuse reflectance, each component in [0, 1) (`Kd`).
+    /// Diffuse reflectance, each component in [0, 1] (`Kd`).
     pub reflectance: Rgb,
     /// Emitted radiosity in W/m², not negative (`Ke`).
     pub emission: Rgb,
@@ -95,6 +95,8 @@ pub struct Scene {
     pub origin: DVec3,
     /// Local bounds.
     pub bounds: Bounds,
+    /// Upward direction, a unit vector, for pictures.
+    pub up: DVec3,
     /// Participating media.
     pub media: Vec<Medium>,
 }

@@ -10,8 +10,18 @@ pub enum WarningKind {
     MissingMaterialFile,
     /// A material without a reflectance (`Kd`): the default is used.
     MissingReflectance,
+    /// A material with a texture (`map_Kd`), which is not read.
+    Texture,
+    /// A material with a texture of its emission (`map_Ke`), which is not read.
+    EmissionTexture,
+    /// A material that lets light through (`d`, `Tr`, `Tf`, `map_d`): opaque here.
+    Transparency,
+    /// A material with a reflectance above the limit that was asked for: lowered.
+    Clamped,
     /// A face without a material, or with an undefined material: the default is used.
     MissingMaterial,
+    /// A vertex with a fourth coordinate, the weight of a rational curve, that is not 1: ignored.
+    Weight,
     /// A face with fewer than three distinct corners, or without area: dropped.
     ZeroArea,
     /// A face whose corners are not in one plane: divided into triangles.
@@ -51,6 +61,13 @@ impl fmt::Display for Warning {
         let (noun, what) = match self.kind {
             WarningKind::MissingMaterialFile => ("material file", "not read"),
             WarningKind::MissingReflectance => ("material", "without Kd: default grey taken"),
+            WarningKind::Texture => ("material", "with a texture (map_Kd), which is not read"),
+            WarningKind::EmissionTexture => {
+                ("material", "with a texture of emission (map_Ke), which is not read")
+            }
+            WarningKind::Transparency => ("transparent material", "taken as opaque"),
+            WarningKind::Clamped => ("material", "with a clamped reflectance"),
+            WarningKind::Weight => ("vertex", "with a fourth coordinate other than 1: ignored"),
             WarningKind::MissingMaterial => ("face", "without a material: default grey taken"),
             WarningKind::ZeroArea => ("face", "without area dropped"),
             WarningKind::NonPlanar => ("non-planar face", "cut into triangles"),
@@ -59,7 +76,11 @@ impl fmt::Display for Warning {
             WarningKind::Duplicate => ("duplicated face", "dropped"),
             WarningKind::Overlap => ("overlap", "of faces in one plane"),
         };
-        let plural = if self.count == 1 { "" } else { "s" };
+        let nouns = match (self.count, noun) {
+            (1, noun) => noun.to_owned(),
+            (_, "vertex") => "vertices".to_owned(),
+            (_, noun) => format!("{noun}s"),
+        };
         if self.kind == WarningKind::Overlap {
             let seen = "a light is seen before other faces, then the smaller face";
             let area = match self.area {
@@ -67,9 +88,9 @@ impl fmt::Display for Warning {
                 area => format!("{area:.4}"),
             };
             let what = format!("{what}, {area} m² in all: {seen}");
-            return write!(f, "{} {noun}{plural} {what} (first: {})", self.count, self.first);
+            return write!(f, "{} {nouns} {what} (first: {})", self.count, self.first);
         }
-        write!(f, "{} {noun}{plural} {what} (first: {})", self.count, self.first)
+        write!(f, "{} {nouns} {what} (first: {})", self.count, self.first)
     }
 }
 
