@@ -61,8 +61,8 @@ fn white_walls_are_taken_clamped_or_replaced() {
     let white = scene("").unwrap().scene;
     assert_eq!(white.material(&white.polygons[0]).reflectance, Rgb::new(1.0, 1.0, 0.95));
     let refused = scene(r#", "materials": {"lamp": {"Kd": [0, 1, 0]}}"#).err().unwrap();
-    let expected = "reflectance (Kd) of a colour is 1, as of all faces; expected some surface that \
-                    absorbs light; \"clamp_reflectance\" in a scene file lowers all";
+    let expected = "every face reflects all light of a colour (Kd 1, first: \"wall\"); expected some \
+                    that absorb; \"clamp_reflectance\" in a scene file lowers reflectances";
     assert!(refused.ends_with(expected), "{refused}");
     let clamped = scene(r#", "clamp_reflectance": 0.9"#).unwrap();
     let warning = "scenes/box.obj: 1 material with a clamped reflectance \

@@ -130,7 +130,10 @@ fn impossible_materials_are_rejected() {
     };
     assert_eq!(material("Kd 0.5 1.01 0.5"), kd("0.5 1.01 0.5"));
     let white = material("Kd 0.5 1 0.5");
-    assert!(white.contains("\"m\": reflectance (Kd) of a colour is 1, as of all faces"), "{white}");
+    assert!(
+        white.contains("every face reflects all light of a colour (Kd 1, first: \"m\")"),
+        "{white}"
+    );
     assert_eq!(material("Kd -0.1"), kd("-0.1 -0.1 -0.1"));
     assert_eq!(material("Kd nan"), kd("NaN NaN NaN"));
     for line in ["Ke 0 -1 0", "Ke inf 0 0"] {
@@ -155,7 +158,9 @@ fn materials_that_no_face_uses_may_be_impossible() {
     assert!(warnings.is_empty(), "{warnings:?}");
     assert_eq!(scene.materials.len(), 3);
     assert!(scene.materials.iter().all(|material| material.check().is_ok()));
-    assert!(error_message(obj("white"), Some(mtl)).starts_with("a.mtl:4: material \"white\""));
+    let white =
+        "a.obj: every face reflects all light of a colour (Kd 1, first: \"white\"); expected";
+    assert!(error_message(obj("white"), Some(mtl)).starts_with(white));
     assert!(error_message(obj("odd"), Some(mtl)).starts_with("a.mtl:6: Kd is \"bright\""));
 }
 

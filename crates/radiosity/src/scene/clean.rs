@@ -84,10 +84,9 @@ fn check_absorption(polygons: &[Polygon], materials: &[Material]) -> Result<(), 
     let least = polygons.iter().map(|polygon| material(polygon).reflectance).reduce(Rgb::min);
     if least.is_some_and(|least| least.max_element() == 1.0) {
         let name = &material(&polygons[0]).name;
-        let found =
-            format!("material \"{name}\": reflectance (Kd) of a colour is 1, as of all faces");
+        let found = format!("every face reflects all light of a colour (Kd 1, first: \"{name}\")");
         let expected =
-            "some surface that absorbs light; \"clamp_reflectance\" in a scene file lowers all";
+            "some that absorb; \"clamp_reflectance\" in a scene file lowers reflectances";
         return Err(SceneError::Invalid(format!("{found}; expected {expected}")));
     }
     Ok(())
