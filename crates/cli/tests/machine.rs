@@ -77,6 +77,39 @@ fn a_replay_reads_schedules_and_csv() {
 }
 
 #[test]
+fn files_of_messages_are_checked() {
+    let project = Project::new(SWEEP);
+    project.write("t.goal", "num_ranks 2\nrank 0 {\ncalc 1\n}\n");
+    project.write("t.csv", "cycle,source,destination,flits\n1,0,70,4\n");
+    project.write("bad.csv", "cycle,source,destination,flits\n1,0,one,4\n");
+    let check = |name| virtwall(&project.path(""), &["check", name]);
+    assert!(check("t.goal").1.ends_with("t.goal: a schedule, 1 operations\n"));
+    assert!(check("t.csv").1.ends_with("t.csv: a trace, 1 messages\n"));
+    let (code, _, stderr) = check("bad.csv");
+    assert_eq!(code, 2);
+    assert!(stderr.starts_with("error: bad.csv:2: destination: found \"one\""), "{stderr}");
+    if cfg!(unix) {
+        let (code, _, stderr) = check("/dev/zero");
+        let expected = "error: /dev/zero: cannot be read: not a regular file\n";
+        assert_eq!((code, stderr.as_str()), (2, expected));
+    }
+}
+
+/// Virtual times saturate, which is no answer.
+#[test]
+fn a_replay_beyond_the_end_of_virtual_time_is_refused() {
+    let project = Project::new(SWEEP);
+    let slow = r#"{"extends": "paragon-xps", "network": {"parameters": {"bandwidth":
+        {"value": "1 B/s", "provenance": "assumed", "source": "none"}}}}"#;
+    project.write("slow.json", slow);
+    project.write("t.csv", "time,source,destination,bytes\n1 us,0,1,100000000\n");
+    let (code, table, stderr) =
+        virtwall(&project.path(""), &["machine", "replay", "t.csv", "--machine", "slow.json"]);
+    assert_eq!((code, table.as_str()), (1, ""));
+    assert!(stderr.starts_with("error: a message arrives later than virtual time"), "{stderr}");
+}
+
+#[test]
 fn a_replay_can_go_to_a_file() {
     let project = Project::new(SWEEP);
     let trace = r#"[{"id": "a", "at": "0 us", "from": 0, "to": 3, "bytes": 4096, "after": []}]"#;

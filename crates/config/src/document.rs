@@ -113,7 +113,22 @@ fn put(target: &mut Value, keys: &[&str], value: &Value) -> bool {
 /// # Errors
 /// If it cannot be read, or is not UTF-8.
 pub fn read_text(path: &Path) -> Result<String, Fault> {
+    let kind = fs::metadata(path).map_err(|error| unreadable(path, error))?.file_type();
+    // A device such as /dev/zero has no end.
+    if !(kind.is_file() || is_pipe(kind)) {
+        return Err(unreadable(path, "not a regular file"));
+    }
     fs::read_to_string(path).map_err(|error| unreadable(path, error))
+}
+
+#[cfg(unix)]
+fn is_pipe(kind: fs::FileType) -> bool {
+    std::os::unix::fs::FileTypeExt::is_fifo(&kind)
+}
+
+#[cfg(not(unix))]
+fn is_pipe(_: fs::FileType) -> bool {
+    false
 }
 
 /// The fault of a file that cannot be read.

@@ -14,8 +14,8 @@ mod sourced; // numbers of a machine file, with their provenance
 
 pub use bench::{
     KernelError, Load, Measured, Operation, OperationKind, Pattern, ReplayDeadlock,
-    ReplayedMessage, Schedule, StalledSchedule, Trace, TraceMessage, exchange, fluid_bound,
-    hot_spot, perform, ping_pong, replay, trace_schema,
+    ReplayedMessage, Schedule, StalledSchedule, Trace, TraceMessage, Workload, exchange,
+    fluid_bound, hot_spot, perform, ping_pong, replay, trace_schema,
 };
 pub use display::{Display, DisplayAccount, Ethernet, Socket, WhenFull};
 pub use machine::{

@@ -6,7 +6,7 @@ use clap::Args;
 use desim::Time;
 use lab::{MachineFile, Table};
 use multicomputer::{
-    ChannelUse, Machine, Network, ReplayedMessage, Schedule, StalledSchedule, Trace, TraceMessage,
+    ChannelUse, Machine, Network, ReplayedMessage, StalledSchedule, TraceMessage, Workload,
     perform, replay,
 };
 
@@ -40,6 +40,11 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let model = arguments.network.model(&machine);
     let mut network = machine.network_on(model).map_err(Exit::bad_input)?;
     let (replayed, end) = send(arguments, &machine, network.as_mut())?;
+    if end == Time::MAX {
+        return Err(Exit::failure(format!(
+            "a message arrives later than virtual time lasts (213 days)"
+        )));
+    }
     if let Some(path) = &arguments.channels {
         write(path, csv(&channels(&machine, network.as_ref(), end))?)?;
     }
@@ -55,22 +60,19 @@ fn send(
     machine: &Machine,
     network: &mut dyn Network,
 ) -> Result<(Replayed, Time), Exit> {
-    let file = arguments.trace.display().to_string();
-    let text = config::read_text(&arguments.trace)?;
-    let extension = arguments.trace.extension().map(|name| name.to_ascii_lowercase());
-    let nodes = machine.nodes();
-    let trace = match extension.as_ref().and_then(|name| name.to_str()) {
-        Some("goal") => {
-            let schedule = Schedule::from_goal(&text, &file, nodes).map_err(Exit::bad_input)?;
+    let file = &arguments.trace;
+    let links = machine.parameters.links.as_ref();
+    let trace = match Workload::read(file, machine.nodes(), links).map_err(Exit::bad_input)? {
+        Workload::Trace(trace) => trace,
+        Workload::Schedule(schedule) => {
             return perform(&schedule, network).map_err(|stalled| match stalled {
                 StalledSchedule::Network { .. } => Exit::failure(stalled),
-                StalledSchedule::Operations { .. } => Exit::bad_input(format!("{file}: {stalled}")),
+                StalledSchedule::Operations { .. } => {
+                    Exit::bad_input(format!("{}: {stalled}", file.display()))
+                }
             });
         }
-        Some("csv") => Trace::from_csv(&text, &file, nodes, machine.parameters.links.as_ref()),
-        _ => Trace::from_json(&text, &file, nodes),
     };
-    let trace = trace.map_err(Exit::bad_input)?;
     let replayed = replay(&trace, network, machine.topology()).map_err(Exit::failure)?;
     let end = replayed.iter().map(|message| message.arrived).max().unwrap_or_default();
     Ok((trace.messages.into_iter().zip(replayed).collect(), end))

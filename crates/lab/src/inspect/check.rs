@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use config::{Document, Fault, json, read_text};
-use multicomputer::Trace;
+use multicomputer::{LinkParameters, Trace, Workload};
 
 use crate::engine::simulator;
 use crate::files::find::Found;
@@ -31,6 +31,9 @@ impl From<String> for Checked {
 pub fn check(path: &Path) -> Result<Checked, Fault> {
     if is_obj(path) {
         return scene(path, "an OBJ file");
+    }
+    if Workload::is_named(path) {
+        return workload(path);
     }
     let text = read_text(path)?;
     if json::without_mark(&text).trim_start().starts_with('[') {
@@ -63,6 +66,19 @@ pub fn check(path: &Path) -> Result<Checked, Fault> {
     let message = "neither an experiment (\"scene\"), a scene (\"obj\" or \"made\") nor a machine (\"processor\"); \
                    expected one of them, a trace, or an OBJ file";
     Err(Fault::of_file(path.display(), message))
+}
+
+/// A file of messages, for any number of nodes and any links.
+fn workload(path: &Path) -> Result<Checked, Fault> {
+    let links =
+        LinkParameters { bandwidth: 1e9, flit_bytes: 1, buffer_flits: 1, virtual_channels: 1 };
+    let what = match Workload::read(path, usize::MAX, Some(&links))? {
+        Workload::Trace(trace) => format!("a trace, {} messages", trace.messages.len()),
+        Workload::Schedule(schedule) => {
+            format!("a schedule, {} operations", schedule.operations.len())
+        }
+    };
+    Ok(what.into())
 }
 
 fn scene(path: &Path, kind: &str) -> Result<Checked, Fault> {

@@ -9,6 +9,7 @@ mod replay; // a trace sent over a network
 mod schedule; // what each node computes, sends and receives
 mod trace; // messages that a user's file lists
 mod traffic; // synthetic traffic
+mod workload; // a file of messages in any format
 
 pub use kernels::{KernelError, exchange, hot_spot, ping_pong};
 pub use performance::{StalledSchedule, perform};
@@ -16,3 +17,4 @@ pub use replay::{ReplayDeadlock, ReplayedMessage, replay};
 pub use schedule::{Operation, OperationKind, Schedule};
 pub use trace::{Trace, TraceMessage, trace_schema};
 pub use traffic::{Load, Measured, Pattern, fluid_bound};
+pub use workload::Workload;
