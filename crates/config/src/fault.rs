@@ -1,6 +1,6 @@
 //! Bad input: one message that names file, line, place and value and says what was expected.
 
-use std::fmt;
+use std::fmt::{self, Write};
 
 use crate::place::Place;
 
@@ -44,7 +44,11 @@ impl fmt::Display for Fault {
         let place = self.place.to_string();
         let parts = [self.file.clone() + &line + &column, place, self.message.clone()];
         let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
-        f.write_str(&parts.join(": "))
+        // Names and values from files may have line ends or control codes of a terminal.
+        parts.join(": ").chars().try_for_each(|c| match c.is_control() {
+            true => write!(f, "{}", c.escape_default()),
+            false => f.write_char(c),
+        })
     }
 }
 
