@@ -6,8 +6,10 @@ mod arguments;
 mod bench_rays;
 mod check;
 mod exit;
+mod export;
 mod files;
 mod formfactors;
+mod list;
 mod live;
 mod machine;
 mod plot;
@@ -39,6 +41,10 @@ struct Arguments {
 enum Command {
     /// Run an experiment and write its results
     Run(run::Arguments),
+    /// List the scenes, machines and experiments that have names here
+    List(list::Arguments),
+    /// Write a built-in scene, machine or experiment into a folder, to be changed there
+    Export(export::Arguments),
     /// Draw the plots and the report of saved results again
     Plot(plot::Arguments),
     /// Validate experiments, machines, traces, scenes and OBJ files; print what each is
@@ -73,6 +79,8 @@ enum BenchCommand {
 fn main() -> ExitCode {
     let result = match &Arguments::parse().command {
         Command::Run(arguments) => run::run(arguments),
+        Command::List(arguments) => list::run(arguments),
+        Command::Export(arguments) => export::run(arguments),
         Command::Plot(arguments) => plot::run(arguments),
         Command::Check(arguments) => check::run(arguments),
         Command::Scene(command) => scene::run(command),

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use clap::{Args, ValueEnum};
 use config::{Dimension, parse};
 use lab::{
-    Claim, Endings, HostClock, On, Options, Plan, Preparing, Results, ShotFiles, Traces, Viewing,
-    check_writable,
+    Claim, Endings, FileKind, HostClock, On, Options, Plan, Preparing, Results, ShotFiles, Traces,
+    Viewing, check_writable, find_here,
 };
 use traces::{Format, Sample};
 
@@ -19,9 +19,9 @@ use crate::threads::Threads;
 
 #[derive(Args)]
 pub struct Arguments {
-    /// The experiment file. Scenes and machines are looked up in scenes/ and machines/ next to its
-    /// folder, then in the current folder
-    file: PathBuf,
+    /// Name of an experiment, or path to an experiment file. Scenes and machines are looked up in scenes/ and
+    /// machines/ next to its folder, then in the current folder, then among those that are built in
+    experiment: String,
     /// Folder for the results [default: results/<name of the experiment file>]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -112,7 +112,9 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let set: Vec<String> = arguments.set.iter().cloned().chain(network).collect();
     let threads = arguments.threads.count();
     let memory = arguments.memory.unwrap_or_else(lab::half_of_free_memory);
-    let default = || PathBuf::from("results").join(arguments.file.file_stem().unwrap_or_default());
+    let found = find_here(&FileKind::EXPERIMENTS, &arguments.experiment);
+    let file = found.map_err(Exit::bad_input)?.path;
+    let default = || PathBuf::from("results").join(file.file_stem().unwrap_or_default());
     let out = arguments.out.clone().unwrap_or_else(default);
     for folder in [out.join(".partial"), out.clone()] {
         check_writable(&folder).map_err(Exit::bad_input)?;
@@ -120,7 +122,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let pilots = Pilots::new(arguments.quiet);
     let on_pilot = |scene: &str, target, runs| pilots.update(scene, target, runs);
     let preparing = Preparing { threads, memory, finding: true, on_pilot: &on_pilot };
-    let plan = Arc::new(Plan::read(&arguments.file, &set, &preparing)?);
+    let plan = Arc::new(Plan::read(&file, &set, &preparing)?);
     pilots.end();
     if !arguments.quiet {
         print_warnings(&plan.warnings);

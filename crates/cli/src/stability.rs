@@ -13,9 +13,9 @@ use crate::steps::Steps;
 pub struct Arguments {
     /// Case files, or names of cases in the folder of cases [default: all cases]
     case: Vec<String>,
-    /// Folder of the cases
-    #[arg(long, value_name = "DIR", default_value = "experiments/stability")]
-    cases: PathBuf,
+    /// Folder of the cases [default: experiments/stability, or the built-in cases if there is no such folder]
+    #[arg(long, value_name = "DIR")]
+    cases: Option<PathBuf>,
     /// Folder for the page, its table and its drawing [default: results/stability if all cases run,
     /// else none]
     #[arg(long, value_name = "DIR")]
@@ -24,10 +24,12 @@ pub struct Arguments {
 
 /// Runs the cases; returns a line of CSV for each.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
+    let folder = arguments.cases.clone().unwrap_or_else(default_folder);
     let paths = match arguments.case.is_empty() {
-        true => cases(&arguments.cases)?,
-        false => (arguments.case.iter().map(|name| place(&arguments.cases, name)))
-            .collect::<Result<_, Exit>>()?,
+        true => cases(&folder)?,
+        false => {
+            (arguments.case.iter().map(|name| place(&folder, name))).collect::<Result<_, Exit>>()?
+        }
     };
     let steps = Steps::new("cases", paths.len());
     let try_one = |number: usize| run_case(&paths[number]);
@@ -48,11 +50,16 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     }
 }
 
+fn default_folder() -> PathBuf {
+    let folder = Path::new("experiments/stability");
+    if folder.is_dir() { folder.to_owned() } else { Path::new(shipped::ROOT).join(folder) }
+}
+
 /// A case's file, given its path or its name in the folder of cases.
 fn place(folder: &Path, name: &str) -> Result<PathBuf, Exit> {
     let path = PathBuf::from(name);
     let in_folder = folder.join(format!("{name}.json"));
-    if let Some(found) = [path, in_folder].into_iter().find(|path| path.is_file()) {
+    if let Some(found) = [path, in_folder].into_iter().find(|path| shipped::is_file(path)) {
         return Ok(found);
     }
     let names = cases(folder)?;

@@ -113,6 +113,9 @@ fn put(target: &mut Value, keys: &[&str], value: &Value) -> bool {
 /// # Errors
 /// If it cannot be read, or is not UTF-8.
 pub fn read_text(path: &Path) -> Result<String, Fault> {
+    if let Some(bytes) = shipped::file(path) {
+        return String::from_utf8(bytes.to_vec()).map_err(|error| unreadable(path, error));
+    }
     let kind = fs::metadata(path).map_err(|error| unreadable(path, error))?.file_type();
     // A device such as /dev/zero has no end.
     if !(kind.is_file() || is_pipe(kind)) {

@@ -20,6 +20,7 @@ pub use experiment::fields::Plot;
 pub use experiment::schema::experiment_schema;
 pub use files::digest::{sealed, unsealed};
 pub use files::file::{check_writable, write as write_file};
+pub use files::find::{FileKind, Found, all_here, find_here};
 pub use host::host_clock::HostClock;
 pub use host::host_memory::half_of_free_memory;
 pub use inspect::check::{Checked, check};

@@ -41,9 +41,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let mut network = machine.network_on(model).map_err(Exit::bad_input)?;
     let (replayed, end) = send(arguments, &machine, network.as_mut())?;
     if end == Time::MAX {
-        return Err(Exit::failure(format!(
-            "a message arrives later than virtual time lasts (213 days)"
-        )));
+        return Err(Exit::failure("a message arrives later than virtual time lasts (213 days)"));
     }
     if let Some(path) = &arguments.channels {
         write(path, csv(&channels(&machine, network.as_ref(), end))?)?;

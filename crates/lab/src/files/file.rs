@@ -14,6 +14,9 @@ pub fn is_plain(name: &str) -> bool {
 }
 
 pub fn read(path: &Path) -> Result<Vec<u8>, Fault> {
+    if let Some(bytes) = shipped::file(path) {
+        return Ok(bytes.to_vec());
+    }
     fs::read(path).map_err(|error| unreadable(path, error))
 }
 

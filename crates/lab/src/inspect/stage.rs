@@ -14,7 +14,7 @@ use crate::engine::simulator::{self, Light, Solved};
 use crate::experiment::accuracy;
 use crate::experiment::fields::Experiment;
 use crate::files::digest::FileDigest;
-use crate::files::find::{FileKind, find, is_json};
+use crate::files::find::{FileKind, find_here, is_json};
 use crate::open::problem;
 use crate::open::scene::Scene;
 use crate::open::settings::Settings;
@@ -71,7 +71,7 @@ impl Stage {
     }
 
     fn of_scene(name: &str) -> Result<Stage, Fault> {
-        let found = find(Path::new("."), &FileKind::SCENES, name).map_err(Fault::complete)?;
+        let found = find_here(&FileKind::SCENES, name).map_err(Fault::complete)?;
         let scene = Scene::load(&found)?;
         let fault = |(_, message)| Fault::of_file(&found.label, message);
         let mut whole = Experiment::of_one_environment(name);

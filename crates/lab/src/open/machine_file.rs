@@ -7,7 +7,7 @@ use multicomputer::{Machine, with_source};
 use serde_json::Value;
 
 use crate::files::digest::FileDigest;
-use crate::files::find::{FileKind, Found, find};
+use crate::files::find::{FileKind, Found, find, find_here};
 
 /// A longer row of machines that extend each other can only be a circle.
 const LONGEST_ROW: usize = 8;
@@ -28,7 +28,7 @@ impl MachineFile {
     /// Reads the machine that a name, or a path to a machine file, means. Unlike an experiment's, it
     /// need not price any operation.
     pub fn open(name: &str) -> Result<MachineFile, Fault> {
-        let found = find(Path::new("."), &FileKind::MACHINES, name).map_err(Fault::complete)?;
+        let found = find_here(&FileKind::MACHINES, name).map_err(Fault::complete)?;
         MachineFile::load(&found)
     }
 

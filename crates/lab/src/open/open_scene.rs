@@ -1,11 +1,9 @@
 //! A scene without an experiment, for statistics and pictures.
 
-use std::path::Path;
-
 use config::Fault;
 
 use crate::experiment::fields::Experiment;
-use crate::files::find::{FileKind, find};
+use crate::files::find::{FileKind, find_here};
 use crate::open::scene::Scene;
 use crate::open::settings::Settings;
 
@@ -32,7 +30,7 @@ pub struct OpenScene {
 impl OpenScene {
     /// Loads the scene that a name, or a path to a scene description or an OBJ file, means.
     pub fn load(name: &str) -> Result<OpenScene, Fault> {
-        let found = find(Path::new("."), &FileKind::SCENES, name).map_err(Fault::complete)?;
+        let found = find_here(&FileKind::SCENES, name).map_err(Fault::complete)?;
         let scene = Scene::load(&found)?;
         let whole = Experiment::of_one_environment(name);
         let settings = Settings::of(&whole, &scene)

@@ -37,7 +37,7 @@ impl Scene {
     pub fn load(found: &Found) -> Result<Scene, Fault> {
         let (path, label) = (&found.path, Path::new(&found.label));
         if is_obj(path) {
-            let read = Read::of(path, label, &read_regular_file)?;
+            let read = Read::of(path, label, &read_file)?;
             return read.scene(None);
         }
         let text = read_text(path)?;
@@ -57,11 +57,11 @@ impl Scene {
                 let name = file.obj.as_deref().unwrap_or_default();
                 let folder = path.parent().unwrap_or(Path::new(""));
                 let obj = folder.join(name);
-                if !obj.is_file() {
+                if !shipped::is_file(&obj) {
                     let message = format!("\"{name}\": no such file in {}", folder.display());
                     return Err(document.fault(&Place::of("obj"), message));
                 }
-                Read::of(&obj, &label.with_file_name(name), &read_regular_file)?
+                Read::of(&obj, &label.with_file_name(name), &read_file)?
             }
         };
         let unknown = |field| {
@@ -75,6 +75,11 @@ impl Scene {
         read.digests.insert(0, digest);
         read.scene(Some(file))
     }
+}
+
+/// Reads a built-in file or one of the host.
+fn read_file(path: &Path) -> io::Result<Vec<u8>> {
+    shipped::file(path).map_or_else(|| read_regular_file(path), |bytes| Ok(bytes.to_vec()))
 }
 
 /// Whether the name of a file says that it is an OBJ file.

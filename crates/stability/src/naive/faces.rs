@@ -1,7 +1,5 @@
 //! Faces used as the file has them, without repair.
 
-use std::fs;
-
 use radiosity::glam::DVec3;
 
 use crate::cases::naive_method::MAX_RAYS;
@@ -18,7 +16,7 @@ struct Face {
 /// The faces of the OBJ file of the case. Only plain `v` and `f` lines are understood.
 fn read(runs: &CaseRuns) -> Result<Vec<Face>, String> {
     let name = runs.scene_file.display();
-    let text = fs::read_to_string(&runs.scene_file).map_err(|error| format!("{name}: {error}"))?;
+    let text = config::read_text(&runs.scene_file).map_err(|fault| fault.to_string())?;
     let mut points = Vec::new();
     let mut faces = Vec::new();
     for line in text.lines() {
