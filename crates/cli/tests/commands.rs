@@ -81,7 +81,7 @@ fn bad_input_exits_with_2_and_leaves_nothing() {
         &["run", "experiments/y.json"][..],
         &["run", "experiments/x.json", "--set", "processors=0"],
         &["run", "experiments/x.json", "--set", "processors=5"],
-        &["run", "experiments/x.json", "--set", "scene=hole"],
+        &["run", "experiments/x.json", "--set", "scene=hold"],
         &["run", "experiments/x.json", "--set", "scene=../scenes/hole.obj"],
         &["run", "experiments/x.json", "--set", "machine=bad"],
         &["run", "experiments/x.json", "--set", "patch_size=1"],
