@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use lab::{OpenScene, Table};
-use radiosity::Space;
+use radiosity::{Scene, Space};
 use reference::{Estimate, ObjectRays, Objects};
 use serde_json::json;
 
@@ -31,6 +31,16 @@ pub struct Arguments {
     /// Seed of the rays' starting points
     #[arg(long, value_name = "N", default_value_t = 1996)]
     seed: u64,
+    /// Between objects, or between their faces
+    #[arg(long, value_enum, default_value = "objects")]
+    between: Between,
+    /// Leave out form factors that are smaller
+    #[arg(long, value_name = "F", value_parser = least)]
+    least: Option<f64>,
+    /// Close each row: add the sum of what was left out, "(less)", and what is missing from 1, "(sky)": it leaves
+    /// the scene or ends on the back of a face
+    #[arg(long)]
+    sums: bool,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
@@ -51,6 +61,21 @@ enum Method {
 }
 
 #[derive(Clone, Copy, ValueEnum)]
+enum Between {
+    Objects,
+    Faces,
+}
+
+impl Between {
+    fn of(self, scene: &Scene) -> Objects<'_> {
+        match self {
+            Between::Objects => Objects::new(scene),
+            Between::Faces => Objects::faces_of(scene),
+        }
+    }
+}
+
+#[derive(Clone, Copy, ValueEnum)]
 enum Format {
     Csv,
     Json,
@@ -63,11 +88,16 @@ pub fn tolerance(text: &str) -> Result<f64, String> {
     value.ok_or_else(|| "expected a number from 1e-12 to 0.1".to_owned())
 }
 
+fn least(text: &str) -> Result<f64, String> {
+    let value = text.parse().ok().filter(|value| (0.0..=1.0).contains(value));
+    value.ok_or_else(|| "expected a number from 0 to 1".to_owned())
+}
+
 /// Computes form factors; returns what to print.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let open = OpenScene::load(&arguments.scene)?.without_media()?;
     print_warnings(&open.warnings);
-    let objects = Objects::new(&open.scene);
+    let objects = arguments.between.of(&open.scene);
     let threads = arguments.threads.count();
     let matrix = match arguments.method {
         Method::Exact => exact(&objects, arguments.tolerance, threads),
@@ -77,7 +107,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     if all.clone().any(|found| !(found.value.is_finite() && found.error.is_finite())) {
         return Err(Exit::failure("a form factor that is not finite; nothing is written"));
     }
-    let text = formatted(&objects, &matrix, arguments.format).map_err(Exit::failure)?;
+    let text = formatted(&objects, &matrix, arguments).map_err(Exit::failure)?;
     let Some(path) = &arguments.output else { return Ok(text) };
     write(path, text)?;
     Ok(String::new())
@@ -106,7 +136,7 @@ fn exact(objects: &Objects, tolerance: f64, threads: usize) -> Matrix {
 
 fn by_rays(open: &OpenScene, arguments: &Arguments, threads: usize) -> Result<Matrix, Exit> {
     let space = Space::new(open.scene.clone(), open.cells);
-    let objects = Objects::new(&space.scene);
+    let objects = arguments.between.of(&space.scene);
     let rays = ObjectRays::new(&objects, &space, arguments.rays, arguments.seed)
         .map_err(Exit::bad_input)?;
     let steps = Steps::new("objects", objects.count());
@@ -115,11 +145,39 @@ fn by_rays(open: &OpenScene, arguments: &Arguments, threads: usize) -> Result<Ma
     Ok(matrix)
 }
 
-fn formatted(objects: &Objects, matrix: &Matrix, format: Format) -> io::Result<String> {
+/// What is printed of an object's row: names and form factors.
+fn row<'a>(
+    objects: &'a Objects,
+    all: &[Estimate],
+    arguments: &Arguments,
+) -> Vec<(&'a str, Estimate)> {
+    let named = all.iter().enumerate().map(|(to, &found)| (objects.name(to), found));
+    let (mut row, less): (Vec<_>, Vec<_>) =
+        named.partition(|(_, found)| arguments.least.is_none_or(|least| found.value >= least));
+    if arguments.sums {
+        let less = sum(less.iter().map(|(_, found)| found));
+        let Estimate { value, error } = sum(all);
+        row.extend([("(less)", less), ("(sky)", Estimate { value: 1.0 - value, error })]);
+    }
+    row
+}
+
+/// A sum of form factors; the error is at most the sum of the errors.
+fn sum<'a>(all: impl IntoIterator<Item = &'a Estimate>) -> Estimate {
+    let add = |sum: Estimate, one: &Estimate| Estimate {
+        value: sum.value + one.value,
+        error: sum.error + one.error,
+    };
+    all.into_iter().fold(Estimate::default(), add)
+}
+
+fn formatted(objects: &Objects, matrix: &Matrix, arguments: &Arguments) -> io::Result<String> {
     let count = objects.count();
-    let all = (0..count).flat_map(|from| (0..count).map(move |to| (from, to)));
-    let rows = all.map(|(from, to)| (objects.name(from), objects.name(to), matrix[from][to]));
-    Ok(match format {
+    let rows = (0..count).flat_map(|from| {
+        let row = row(objects, &matrix[from], arguments);
+        row.into_iter().map(move |(to, found)| (objects.name(from), to, found))
+    });
+    Ok(match arguments.format {
         Format::Csv => {
             let columns = ["from", "to", "form_factor", "error_estimate"].map(str::to_owned);
             let rows = rows.map(|(from, to, Estimate { value, error })| {
@@ -140,7 +198,7 @@ fn formatted(objects: &Objects, matrix: &Matrix, format: Format) -> io::Result<S
         }
         Format::Text => {
             let widest = (0..count).map(|object| objects.name(object).chars().count()).max();
-            let width = widest.unwrap_or(0).max(4) + 2;
+            let width = widest.unwrap_or(0).max(6) + 2;
             let head = format!("{:width$}{:width$}form factor   error estimate\n", "from", "to");
             rows.fold(head, |text, (from, to, Estimate { value, error })| {
                 text + &format!("{from:width$}{to:width$}{value:<12.10}  {error:.1e}\n")

@@ -70,6 +70,42 @@ fn form_factors_of_objects() {
     assert!(succeeds(folder.path(), "formfactors s.json").contains("0.19982"));
 }
 
+/// Rows of a closed cube sum to 1; what a cube without its ceiling lacks is what the ceiling would get.
+#[test]
+fn rows_of_faces_close() {
+    let folder = folder();
+    let cube = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\no cube\nf 1 2 3 4\n\
+                f 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n";
+    fs::write(folder.path().join("open.obj"), cube).unwrap();
+    fs::write(folder.path().join("closed.obj"), cube.to_owned() + "f 8 7 6 5\n").unwrap();
+    let rows = |arguments: &str| -> Vec<(String, String, f64)> {
+        let (code, csv, _) =
+            virtwall(folder.path(), &format!("formfactors {arguments} --format csv"));
+        assert_eq!(code, 0);
+        let cells = csv.lines().skip(1).map(|line| line.split(',').collect::<Vec<_>>());
+        cells.map(|c| (c[0].to_owned(), c[1].to_owned(), c[2].parse().unwrap())).collect()
+    };
+    let of = |rows: &[(String, String, f64)], from: &str, to: &str| {
+        rows.iter().find(|row| row.0 == from && row.1 == to).map(|row| row.2)
+    };
+    for method in ["exact --tolerance 1e-9", "rays --rays 262144"] {
+        let within = if method.starts_with("exact") { 1e-7 } else { 0.01 };
+        let closed = rows(&format!("closed.obj --between faces --sums --method {method}"));
+        assert_eq!(closed.len(), 6 * 8);
+        for face in 1..=6 {
+            let sky = of(&closed, &format!("cube/{face}"), "(sky)").unwrap();
+            assert!(sky.abs() < within, "{sky}");
+        }
+        let open = rows(&format!("open.obj --between faces --sums --method {method}"));
+        let sky = of(&open, "cube/1", "(sky)").unwrap();
+        assert!((sky - EXACT).abs() < within, "{sky}");
+    }
+    let most = rows("closed.obj --between faces --sums --least 0.2");
+    assert_eq!(of(&most, "cube/1", "cube/6"), None);
+    assert!((of(&most, "cube/1", "(less)").unwrap() - EXACT).abs() < 1e-6);
+    assert_eq!(rows("closed.obj").len(), 1);
+}
+
 #[test]
 fn references_are_stored_with_their_errors() {
     let folder = folder();
@@ -130,6 +166,7 @@ fn bad_input_is_refused() {
         ("formfactors s.obj --tolerance 0", "expected a number from 1e-12 to 0.1"),
         ("formfactors s.obj --method rays --rays 0", "--rays"),
         ("formfactors s.obj --format xml", "xml"),
+        ("formfactors s.obj --least 2", "expected a number from 0 to 1"),
         ("formfactors s.obj --output no/where.csv", "no/where.csv"),
         ("reference s.json --method dense --problem continuum", "patches only"),
         ("reference s.json --paths 0", "--paths"),

@@ -87,10 +87,7 @@ impl<'a> ObjectRays<'a> {
             let shot = shoot(self.space, &self.environment, &self.hemisphere, &source, &mask);
             for (patch, form_factor) in shot.hits {
                 let polygon = self.environment.patches[patch as usize].polygon;
-                let hit = self.space.scene.polygons[polygon as usize].object;
-                if let Some(to) = self.objects.place(hit) {
-                    means[to] += form_factor / f64::from(self.points);
-                }
+                means[self.objects.of_face(polygon)] += form_factor / f64::from(self.points);
             }
         }
         means

@@ -1,19 +1,22 @@
-//! Form factors between the objects of a scene; an object is the union of its faces.
+//! Form factors between the objects of a scene, or its faces; an object is the union of its faces.
+
+use std::collections::{BTreeMap, BTreeSet};
 
 use radiosity::Scene;
 
 use crate::form_factors::cubature::{Estimate, Tolerance, integrate};
 use crate::form_factors::pair::{Pair, Surface};
 
-/// The objects of a scene that have faces.
+/// The objects of a scene that have faces, or its faces, each an object.
 pub struct Objects<'a> {
     scene: &'a Scene,
     objects: Vec<Object>,
+    /// For each polygon, the index of its object here.
+    of_faces: Vec<usize>,
 }
 
 struct Object {
-    /// Its number in the scene.
-    number: u32,
+    name: String,
     /// Its polygons.
     faces: Vec<u32>,
     /// m².
@@ -23,15 +26,36 @@ struct Object {
 impl<'a> Objects<'a> {
     /// The objects of a scene. Faces of two-sided materials count with both sides.
     pub fn new(scene: &'a Scene) -> Objects<'a> {
-        let object = |number| Object { number, faces: Vec::new(), area: 0.0 };
-        let mut objects: Vec<Object> = (0..scene.objects.len() as u32).map(object).collect();
-        for (number, polygon) in (0..).zip(&scene.polygons) {
-            let object = &mut objects[polygon.object as usize];
-            object.faces.push(number);
-            object.area += polygon.area;
+        let numbers: BTreeSet<u32> = scene.polygons.iter().map(|polygon| polygon.object).collect();
+        let places: BTreeMap<u32, usize> = numbers.into_iter().zip(0..).collect();
+        let names = places.keys().map(|&number| scene.objects[number as usize].clone());
+        let of_faces = scene.polygons.iter().map(|polygon| places[&polygon.object]).collect();
+        Objects::of(scene, names, of_faces)
+    }
+
+    /// The faces of a scene, each named after its object and its number there, from 1.
+    pub fn faces_of(scene: &'a Scene) -> Objects<'a> {
+        let mut counts = vec![0; scene.objects.len()];
+        let names = scene.polygons.iter().map(|polygon| {
+            let number = polygon.object as usize;
+            counts[number] += 1;
+            format!("{}/{}", scene.objects[number], counts[number])
+        });
+        Objects::of(scene, names, (0..scene.polygons.len()).collect())
+    }
+
+    fn of(
+        scene: &'a Scene,
+        names: impl Iterator<Item = String>,
+        of_faces: Vec<usize>,
+    ) -> Objects<'a> {
+        let object = |name| Object { name, faces: Vec::new(), area: 0.0 };
+        let mut objects: Vec<Object> = names.map(object).collect();
+        for (number, (polygon, &place)) in (0..).zip(scene.polygons.iter().zip(&of_faces)) {
+            objects[place].faces.push(number);
+            objects[place].area += polygon.area;
         }
-        objects.retain(|object| !object.faces.is_empty());
-        Objects { scene, objects }
+        Objects { scene, objects, of_faces }
     }
 
     /// The number of objects.
@@ -41,7 +65,7 @@ impl<'a> Objects<'a> {
 
     /// The name of an object.
     pub fn name(&self, object: usize) -> &str {
-        &self.scene.objects[self.objects[object].number as usize]
+        &self.objects[object].name
     }
 
     /// The area of an object, m².
@@ -54,9 +78,9 @@ impl<'a> Objects<'a> {
         &self.objects[object].faces
     }
 
-    /// The index here of the object with this number in the scene.
-    pub(crate) fn place(&self, number: u32) -> Option<usize> {
-        self.objects.binary_search_by_key(&number, |object| object.number).ok()
+    /// The index of a polygon's object.
+    pub(crate) fn of_face(&self, polygon: u32) -> usize {
+        self.of_faces[polygon as usize]
     }
 
     /// The form factors between two objects in both directions. Each error is at most `tolerance` if that
