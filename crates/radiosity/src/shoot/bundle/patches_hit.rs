@@ -71,15 +71,20 @@ fn slot<S: Simd>(
     axis: DVec3,
     (start, n, rounding): (f64, u32, f64),
 ) -> f64x8<S> {
-    let along = |[x, y, z]: [f64x8<S>; 3]| x * axis.x + y * axis.y + z * axis.z;
-    let place = (along(point) - start).max(0.0);
+    let place = (along(point, axis) - start).max(0.0);
     let border = (place + 0.5).floor();
     let mut slot = place.floor();
     let off = place - border;
     let near = off.max(-off).simd_le(rounding);
     if !near.all_false() {
-        let rising = along(direction).simd_gt(rounding);
+        let rising = along(direction, axis).simd_gt(rounding);
         slot = near.select(rising.select(border - 1.0, border), slot);
     }
     slot.max(0.0).min(f64::from(n - 1))
+}
+
+/// A function, since closures that are not inlined compute without the processor's vectors.
+#[inline(always)]
+fn along<S: Simd>([x, y, z]: [f64x8<S>; 3], axis: DVec3) -> f64x8<S> {
+    x * axis.x + y * axis.y + z * axis.z
 }
