@@ -5,6 +5,7 @@
 mod common;
 
 use std::fs;
+use std::path::Path;
 
 use common::Project;
 use lab::{Plan, Preparing, Solved};
@@ -19,6 +20,15 @@ fn message(project: &Project, arguments: &[&str]) -> String {
         return "nothing wrong".to_owned();
     };
     fault.to_string().replace(&project.path("").display().to_string(), "")
+}
+
+/// The names of the built-in files of a folder and of the project's own, sorted.
+fn named(folder: &str, own: &[&str]) -> Vec<String> {
+    let paths = shipped::json_files(&Path::new(shipped::ROOT).join(folder));
+    let built_in = paths.iter().map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned());
+    let mut names: Vec<String> = built_in.chain(own.iter().map(|&own| own.to_owned())).collect();
+    names.sort();
+    names
 }
 
 #[test]
@@ -95,7 +105,7 @@ fn experiments_are_refused_with_place_value_and_expectation() {
         ),
         (
             &format!("{{{good},\n\"machine\": {{\"extends\": \"cm-5\"}}}}"),
-            "experiments/x.json:2: machine.extends: unknown machine \"cm-5\" (there are: paragon-xps)",
+            "experiments/x.json:2: machine.extends: unknown machine \"cm-5\" (there are: MACHINES)",
         ),
         (
             &format!("{{{good}, \"machine\": 5}}"),
@@ -184,7 +194,7 @@ fn experiments_are_refused_with_place_value_and_expectation() {
         (
             r#"{"title": "t", "scene": "bux", "processors": 1}"#,
             "experiments/x.json:1: scene: unknown scene \"bux\", did you mean \"box\"? (there \
-             are: box)",
+             are: SCENES)",
         ),
         (
             r#"{"title": "t", "scene": "../bux.obj", "processors": 1}"#,
@@ -193,7 +203,7 @@ fn experiments_are_refused_with_place_value_and_expectation() {
         ),
         (
             &format!("{{{good}, \"machine\": \"cm-5\"}}"),
-            "experiments/x.json:1: machine: unknown machine \"cm-5\" (there are: paragon-xps)",
+            "experiments/x.json:1: machine: unknown machine \"cm-5\" (there are: MACHINES)",
         ),
         (
             &format!("{{{good}, \"compare_with\": \"table9.csv\"}}"),
@@ -260,6 +270,10 @@ fn experiments_are_refused_with_place_value_and_expectation() {
             "experiments/x.json:1: mapping: an empty list; expected at least one value to sweep",
         ),
     ] {
+        let names = |folder: &str, own: &[&str]| named(folder, own).join(", ");
+        let expected = expected
+            .replace("MACHINES", &names("machines", &[]))
+            .replace("SCENES", &names("scenes", &["box"]));
         assert_eq!(message(&Project::new(text), &[]), expected, "{text}");
     }
 }
