@@ -10,7 +10,7 @@ use reference::{Estimate, ObjectRays, Objects};
 use serde_json::json;
 
 use crate::exit::{Exit, print_warnings};
-use crate::files::write;
+use crate::files::{check_writable, write};
 use crate::steps::Steps;
 use crate::threads::Threads;
 
@@ -95,6 +95,7 @@ fn least(text: &str) -> Result<f64, String> {
 
 /// Computes form factors; returns what to print.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
+    arguments.output.iter().try_for_each(|path| check_writable(path))?;
     let open = OpenScene::load(&arguments.scene)?.without_media()?;
     print_warnings(&open.warnings);
     let objects = arguments.between.of(&open.scene);

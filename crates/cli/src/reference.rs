@@ -12,7 +12,7 @@ use reference::{
 use serde::{Deserialize, Serialize};
 
 use crate::exit::{Exit, print_warnings};
-use crate::files::{make_folder, write};
+use crate::files::{check_writable, make_folder, write};
 use crate::scene::meshed;
 use crate::steps::Steps;
 use crate::threads::Threads;
@@ -108,6 +108,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         method,
     };
     let output = output_file(arguments, &subject.scene)?;
+    check_writable(&output)?;
     let mut partial = output.as_os_str().to_owned();
     partial.push(".partial");
     let partial = PathBuf::from(partial);

@@ -13,7 +13,7 @@ use radiosity::{
 
 use crate::arguments::{direction, number, point};
 use crate::exit::{Exit, print_note, print_warnings};
-use crate::files::write;
+use crate::files::{check_writable, write};
 use crate::steps::Steps;
 
 /// The most frames whose light is in memory at one time.
@@ -123,6 +123,7 @@ enum ToneArgument {
 /// Draws; returns what was drawn.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let Moment { set, run, at, frames, .. } = &arguments.moment;
+    arguments.output.iter().chain(&arguments.gltf).try_for_each(|path| check_writable(path))?;
     let stage = Stage::open(&arguments.what, &Which { set, row: *run })?;
     print_warnings(&stage.warnings);
     if stage.run.is_none() && (at.is_some() || frames.is_some() || run.is_some() || !set.is_empty())
@@ -147,10 +148,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         (Some(frames), Some(output)) => renderer.animation(*frames, output)?,
         _ => renderer.still()?,
     };
-    let mut text = format!("{}\n{drawn}", stage.title);
-    for file in stage.run.iter().flat_map(|run| &run.changed) {
-        text += &format!("note: {file} is not what it was when the results were made\n");
-    }
+    let text = format!("{}\n{drawn}", stage.title);
     Ok(if arguments.output.is_some() {
         text + &format!("{width} x {height} pixels\n")
     } else {

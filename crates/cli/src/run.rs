@@ -156,6 +156,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
 
     let results = Results::of(&plan, &endings, &options).map_err(Exit::failure)?;
     lab::write_host_times(&out, &endings, clock.seconds(), threads).map_err(Exit::failure)?;
+    lab::write_origin(&out, &file).map_err(Exit::failure)?;
     results.write(&out).map_err(Exit::failure)?;
     drop(claim);
     let mut output = output(&plan, &results, &endings);

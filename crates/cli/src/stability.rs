@@ -31,14 +31,16 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
             (arguments.case.iter().map(|name| place(&folder, name))).collect::<Result<_, Exit>>()?
         }
     };
+    let all = || arguments.case.is_empty().then(|| PathBuf::from("results/stability"));
+    let out = arguments.out.clone().or_else(all);
+    out.iter().try_for_each(|out| lab::check_writable(out)).map_err(Exit::bad_input)?;
     let steps = Steps::new("cases", paths.len());
     let try_one = |number: usize| run_case(&paths[number]);
     let tried = parallel::map(paths.len(), parallel::host_threads(), steps.counting(try_one));
     steps.end();
     let results = tried.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let all = || arguments.case.is_empty().then(|| PathBuf::from("results/stability"));
     let output = csv(&results).map_err(Exit::failure)?;
-    if let Some(out) = arguments.out.clone().or_else(all) {
+    if let Some(out) = out {
         write_page(&out, &results, &output)?;
     }
     match results.iter().filter(|result| !result.holds()).count() {

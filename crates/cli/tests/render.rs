@@ -118,14 +118,48 @@ fn any_instant_of_a_run_is_drawn() {
 }
 
 #[test]
-fn results_whose_files_have_changed_say_so() {
+fn results_whose_files_have_changed_are_not_drawn() {
     let project = Project::new(SWEEP);
     virtwall(&project, "run experiments/x.json");
     let materials = fs::read_to_string(project.path("scenes/box.mtl")).unwrap();
     project.write("scenes/box.mtl", &materials.replace("0.5", "0.6"));
-    let said = render(&project, &format!("results/x -o a.png {INSIDE}"));
-    let note = "note: scenes/box.mtl is not what it was when the results were made\n";
-    assert!(said.contains(note), "{said}");
+    let (code, _, said) = virtwall(&project, &format!("render results/x -o a.png {INSIDE}"));
+    assert_eq!(code, 2, "{said}");
+    let place = "results/x/manifest.json: the results were made from another scenes/box.mtl";
+    assert!(said.contains(place) && !project.path("a.png").exists(), "{said}");
+    render(&project, &format!("experiments/x.json -o a.png {INSIDE}"));
+}
+
+/// Paths and names in an experiment start from its file, also where only its results are named; files of
+/// the same names in the current folder are others.
+#[test]
+fn results_are_drawn_from_any_folder() {
+    let project = Project::new(SWEEP);
+    let experiment = SWEEP.replace("\"box\"", "\"../scenes/box.json\"");
+    project.write("experiments/y.json", &experiment);
+    let other = Project::new(SWEEP);
+    let materials = fs::read_to_string(other.path("scenes/box.mtl")).unwrap();
+    other.write("scenes/box.mtl", &materials.replace("0.5", "0.6"));
+    for name in ["x", "y"] {
+        virtwall(&project, &format!("run experiments/{name}.json"));
+        render(&project, &format!("results/{name} -o a.png {INSIDE}"));
+        let folder = project.path("results").join(name);
+        render(&other, &format!("{} -o a.png {INSIDE}", folder.display()));
+        assert_eq!(bytes(&other, "a.png"), bytes(&project, "a.png"));
+    }
+}
+
+/// A picture that cannot be written is refused before the scene is read, let alone solved.
+#[test]
+fn a_place_that_cannot_be_written_is_refused_first() {
+    let project = Project::new(SWEEP);
+    for (arguments, message) in [
+        ("nobox -o nowhere/a.png", "nowhere/a.png: cannot be written: its folder does not exist"),
+        ("nobox --gltf scenes", "scenes: cannot be written: it is a folder"),
+    ] {
+        let (code, _, said) = virtwall(&project, &format!("render {arguments}"));
+        assert!(code == 2 && said.contains(message), "{said}");
+    }
 }
 
 #[test]

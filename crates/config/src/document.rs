@@ -1,7 +1,6 @@
 //! A JSON file as the user wrote it, with the arguments that change it. It finds the line of a fault.
 
 use std::fmt::Display;
-use std::fs;
 use std::path::Path;
 
 use schemars::JsonSchema;
@@ -9,6 +8,7 @@ use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
 use crate::fault::Fault;
+use crate::file::read_text;
 use crate::json;
 use crate::place::Place;
 use crate::read::{read, refuse_unknown_keys};
@@ -106,37 +106,6 @@ fn put(target: &mut Value, keys: &[&str], value: &Value) -> bool {
         }
         _ => false,
     }
-}
-
-/// A file's text.
-///
-/// # Errors
-/// If it cannot be read, or is not UTF-8.
-pub fn read_text(path: &Path) -> Result<String, Fault> {
-    if let Some(bytes) = shipped::file(path) {
-        return String::from_utf8(bytes.to_vec()).map_err(|error| unreadable(path, error));
-    }
-    let kind = fs::metadata(path).map_err(|error| unreadable(path, error))?.file_type();
-    // A device such as /dev/zero has no end.
-    if !(kind.is_file() || is_pipe(kind)) {
-        return Err(unreadable(path, "not a regular file"));
-    }
-    fs::read_to_string(path).map_err(|error| unreadable(path, error))
-}
-
-#[cfg(unix)]
-fn is_pipe(kind: fs::FileType) -> bool {
-    std::os::unix::fs::FileTypeExt::is_fifo(&kind)
-}
-
-#[cfg(not(unix))]
-fn is_pipe(_: fs::FileType) -> bool {
-    false
-}
-
-/// The fault of a file that cannot be read.
-pub fn unreadable(path: &Path, error: impl Display) -> Fault {
-    Fault::of_file(path.display(), format!("cannot be read: {error}"))
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ use multicomputer::{
 
 use super::network::NetworkArgument;
 use crate::exit::Exit;
-use crate::files::write;
+use crate::files::{check_writable, write};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -36,6 +36,7 @@ type Replayed = Vec<(TraceMessage, ReplayedMessage)>;
 
 /// Sends the messages; returns when and how each of them arrived, as CSV.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
+    arguments.out.iter().chain(&arguments.channels).try_for_each(|path| check_writable(path))?;
     let machine = MachineFile::open(&arguments.machine)?.machine;
     let model = arguments.network.model(&machine);
     let mut network = machine.network_on(model).map_err(Exit::bad_input)?;

@@ -11,7 +11,7 @@ use radiosity::{
 
 use crate::arguments::direction;
 use crate::exit::{Exit, print_warnings};
-use crate::files::write;
+use crate::files::{check_writable, write};
 use crate::render::solved;
 
 /// The share of the light that may be unshot in a picture.
@@ -43,6 +43,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     if arguments.cut_above.is_some_and(|height| !height.is_finite()) {
         return Err(Exit::bad_input("--cut-above: not a height; expected metres, such as 2.5"));
     }
+    arguments.png.iter().try_for_each(|path| check_writable(path))?;
     let open = OpenScene::load(&arguments.scene)?;
     print_warnings(open.all_warnings());
     let (_, whole) = meshed(&open);

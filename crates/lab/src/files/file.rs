@@ -1,6 +1,5 @@
 //! Files: read with a message that names them, written whole or not at all.
 
-use config::{Fault, unreadable};
 use std::fs;
 use std::io;
 use std::path::Path;
@@ -11,13 +10,6 @@ pub const PLAIN: &str = "letters, digits, \"-\", \"_\" and \".\", the first one 
 pub fn is_plain(name: &str) -> bool {
     let plain = |c: char| c.is_alphanumeric() || "-_.".contains(c);
     !name.is_empty() && name.len() <= 100 && !name.starts_with('.') && name.chars().all(plain)
-}
-
-pub fn read(path: &Path) -> Result<Vec<u8>, Fault> {
-    if let Some(bytes) = shipped::file(path) {
-        return Ok(bytes.to_vec());
-    }
-    fs::read(path).map_err(|error| unreadable(path, error))
 }
 
 /// Writes a file under a temporary name beside it and then renames it: a reader, or a run that

@@ -19,6 +19,7 @@ use crate::open::problem;
 use crate::open::scene::Scene;
 use crate::open::settings::Settings;
 use crate::planning::plan::Plan;
+use crate::results::origin::origin;
 
 /// A scene, and where its light comes from.
 pub struct Stage {
@@ -35,8 +36,6 @@ pub struct Stage {
 pub struct StagedRun {
     /// Its row in the results, from 1.
     pub row: usize,
-    /// Files that have changed since the results were made.
-    pub changed: Vec<String>,
     point: Experiment,
     machine: Machine,
     kept: Arc<KeptShots>,
@@ -64,7 +63,7 @@ impl Stage {
         if is_json(path) && path.is_file() {
             let document = Document::read(path)?;
             if document.value.get("scene").is_some() {
-                return Stage::of_run(path, document, which, None);
+                return Stage::of_run(path, document, which, &Value::Null);
             }
         }
         Stage::of_scene(what)
@@ -94,7 +93,9 @@ impl Stage {
         };
         let files = std::mem::replace(&mut document.value, experiment)["files"].take();
         accuracy::without_replaced(&mut document.value);
-        Stage::of_run(&path, document, which, Some(&files))
+        // Paths in an experiment start from its file.
+        let experiment = origin(folder).unwrap_or_else(|| path.clone());
+        Stage::of_run(&experiment, document, which, &files)
     }
 
     /// A run of an experiment; `files` are the digests that its results have of what they were made from.
@@ -102,21 +103,23 @@ impl Stage {
         path: &Path,
         document: Document,
         which: &Which,
-        files: Option<&Value>,
+        files: &Value,
     ) -> Result<Stage, Fault> {
+        let file = document.file.clone();
         let (plan, row) = Plan::of_row(path, document, which.set, which.row)?;
-        let same = |file: &&FileDigest| {
-            files.is_none_or(|files| files[&file.label].as_str() == Some(&file.sha256))
+        let changed = |file: &&FileDigest| {
+            files[&file.label].as_str().is_some_and(|digest| digest != file.sha256)
         };
-        let changed = plan.files.iter().filter(|file| !same(file));
-        let changed = changed.map(|file| file.label.clone()).collect();
+        if let Some(changed) = plan.files.iter().find(changed) {
+            return Err(Fault::of_file(file, not_the_same(changed, files)));
+        }
         let run = &plan.runs[0];
         let point = run.point.clone();
         let title = format!("{}, {} on {} processors", plan.title, point.scene, point.processors);
         let problem = Arc::clone(&plan.problems[run.problem].problem);
         let machine = plan.machines[run.machine].machine.clone();
         let kept = Arc::new(KeptShots::new(crate::host::host_memory::half_of_free_memory()));
-        let run = StagedRun { row, changed, point, machine, kept };
+        let run = StagedRun { row, point, machine, kept };
         let warnings = plan.warnings.clone();
         Ok(Stage { title, run: Some(run), warnings, problem })
     }
@@ -147,4 +150,13 @@ impl Stage {
         let run = simulator::run(&self.problem, &staged.point, &staged.kept, Arc::new(|| ()));
         simulator::light_at(&run, &staged.point, &staged.machine, times)
     }
+}
+
+fn not_the_same(found: &FileDigest, files: &Value) -> String {
+    let FileDigest { label, sha256 } = found;
+    format!(
+        "the results were made from another {label}, SHA-256 {}; found {sha256}. Expected the file as it was; \
+         to draw it as it is, name the experiment instead of its results",
+        files[label].as_str().unwrap_or_default()
+    )
 }

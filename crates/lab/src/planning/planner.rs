@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use config::{Document, Fault, Place, fill, read};
+use config::{Document, Fault, Place, fill, read, read_bytes};
 use serde_json::Value;
 
 use crate::accuracy::answer::{self, Stored};
@@ -15,7 +15,7 @@ use crate::experiment::accuracy;
 use crate::experiment::fields::Experiment;
 use crate::experiment::sweep::{Point, Sweep};
 use crate::files::digest::FileDigest;
-use crate::files::file::{self, PLAIN, is_plain};
+use crate::files::file::{PLAIN, is_plain};
 use crate::files::find::{FileKind, Found, find, named_from};
 use crate::host::host_clock::HostClock;
 use crate::host::program::program;
@@ -349,7 +349,7 @@ impl<'a> Planner<'a> {
         };
         let path = named_from(self.folder, name)
             .map_err(|message| self.document.fault(&Place::of("compare_with"), message))?;
-        let bytes = file::read(&path)?;
+        let bytes = read_bytes(&path)?;
         Ok((Comparison::read(&bytes, &path)?, Some(FileDigest::of(&bytes, name))))
     }
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
-use config::{Document, Fault, Place, read, unreadable};
+use config::{Document, Fault, Place, read, read_bytes, unreadable};
 use serde_json::{Map, Value, json};
 use viewer::ReportParts;
 
@@ -56,7 +56,7 @@ impl Results {
         }
         let document = Document::read(&path)?;
         let csv = folder.join("runs.csv");
-        let bytes = file::read(&csv)?;
+        let bytes = read_bytes(&csv)?;
         if document.value["runs_csv_sha256"] != Value::String(sha256(&bytes)) {
             let message =
                 "does not have the digest that manifest.json states; expected it unchanged";

@@ -1,9 +1,9 @@
 //! What accuracy costs: for each scene the setting that reaches an error in the least time.
 
+use config::read_bytes;
 use std::path::Path;
 
 use crate::files::digest::FileDigest;
-use crate::files::file;
 use crate::files::find::named_from;
 use crate::table::runs_csv::Table;
 
@@ -46,7 +46,7 @@ pub fn cheapest(table: &Table, sweeps: &[String]) -> Vec<Cheapest> {
 /// Reads the runs.csv of a sweep, at a path relative to `folder`.
 pub fn read_sweep(folder: &Path, name: &str) -> Result<(Table, FileDigest), String> {
     let path = named_from(folder, name)?;
-    let bytes = file::read(&path).map_err(|fault| fault.to_string())?;
+    let bytes = read_bytes(&path).map_err(|fault| fault.to_string())?;
     let table = Table::from_csv(&bytes)
         .map_err(|error| format!("\"{name}\": {error}; expected a runs.csv"))?;
     for column in ["scene", "time_s", "error_l2"] {
