@@ -121,7 +121,10 @@ impl BundleShot<'_> {
     /// Casts the rays of a bundle one by one.
     fn one_by_one(&mut self, bundle: usize, word: u64) {
         let BundleShot { space, environment, own_polygon, rays, tally, .. } = self;
-        for lane in (0..WIDTH).filter(|lane| word >> lane & 1 == 1) {
+        let mut rest = word;
+        while rest != 0 {
+            let lane = rest.trailing_zeros() as usize;
+            rest &= rest - 1;
             let pixel = (bundle * WIDTH + lane) as u32;
             cast_pixel(space, environment, &rays.ray(lane), *own_polygon, pixel, tally);
         }

@@ -34,8 +34,12 @@ pub(crate) fn encode(shot: &Shot) -> Vec<u8> {
 fn encode_words(words: &[u64], to: &mut Vec<u8>) {
     for block in words.chunks(64) {
         let held = block.iter().zip(0..).map(|(&word, i)| u64::from(word != 0) << i);
-        to.extend(held.fold(0, |all, bit| all | bit).to_le_bytes());
-        block.iter().filter(|&&word| word != 0).for_each(|word| to.extend(word.to_le_bytes()));
+        let mut held = held.fold(0, |all, bit| all | bit);
+        to.extend(held.to_le_bytes());
+        while held != 0 {
+            to.extend(block[held.trailing_zeros() as usize].to_le_bytes());
+            held &= held - 1;
+        }
     }
 }
 

@@ -4,6 +4,7 @@ use radiosity::{Emitter, Mask};
 use xxhash_rust::xxh3::Xxh3Default;
 
 use crate::problem::Source;
+use crate::wire::little_endian;
 
 /// The inputs that determine a shot of a problem: environment, emitter, and mask, whose length says which
 /// hemisphere. The mask and the start of its rays are represented by a 128-bit digest: the probability that two
@@ -58,19 +59,10 @@ fn digest(emitter: &Emitter, mask: &Mask) -> u128 {
     let mut hasher = Xxh3Default::new();
     hasher.update(&mask.pixels().to_le_bytes());
     emitter.centre.to_array().iter().for_each(|x| hasher.update(&x.to_bits().to_le_bytes()));
-    for words in mask.words().chunks(64) {
-        let mut bytes = [0; 512];
-        for (place, word) in bytes.chunks_exact_mut(8).zip(words) {
-            place.copy_from_slice(&word.to_le_bytes());
-        }
-        hasher.update(&bytes[..words.len() * 8]);
-    }
-    for steps in mask.steps().into_iter().flat_map(|(steps, _)| steps.chunks(256)) {
-        let mut bytes = [0; 512];
-        for (place, steps) in bytes.chunks_exact_mut(2).zip(steps) {
-            place.copy_from_slice(&steps.to_le_bytes());
-        }
-        hasher.update(&bytes[..steps.len() * 2]);
+    hasher.update(&little_endian(mask.words()));
+    if let Some((steps, _)) = mask.steps() {
+        let bytes: Vec<u8> = steps.iter().flat_map(|steps| steps.to_le_bytes()).collect();
+        hasher.update(&bytes);
     }
     hasher.digest128()
 }

@@ -212,7 +212,7 @@ impl Region {
     /// The absolute unshot power of all patches, W; summed again only where it has changed.
     pub fn unshot_magnitude(&mut self) -> Rgb {
         let sum = |one: &mut Environment| {
-            let sum = || one.light.unshot.iter().map(|power| power.abs()).sum();
+            let sum = || one.light.unshot.iter().fold(Rgb::ZERO, |sum, power| sum + power.abs());
             *one.unshot.get_or_insert_with(sum)
         };
         self.environments.iter_mut().map(sum).sum()

@@ -3,6 +3,7 @@
 use radiosity::{DepthBits, Emitter, Mask};
 
 use super::reader::{DecodeError, Reader};
+use super::words::little_endian;
 use crate::problem::Source;
 
 /// Bits of a message that hold the number of pixels; [`radiosity::MOST_PIXELS`] fits them.
@@ -33,19 +34,11 @@ pub(super) fn encode(source: &Source, to: &mut Vec<u8>) {
     }
     to.extend(form_factor.to_le_bytes());
     match mask.steps() {
-        None => encode_words(mask.words(), to),
+        None => to.extend_from_slice(&little_endian(mask.words())),
         Some((steps, DepthBits::Eight)) => to.extend(steps.iter().map(|&steps| steps as u8)),
         Some((steps, DepthBits::Sixteen)) => {
             steps.iter().for_each(|steps| to.extend(steps.to_le_bytes()));
         }
-    }
-}
-
-fn encode_words(words: &[u64], to: &mut Vec<u8>) {
-    let start = to.len();
-    to.resize(start + words.len() * 8, 0);
-    for (place, word) in to[start..].chunks_exact_mut(8).zip(words) {
-        place.copy_from_slice(&word.to_le_bytes());
     }
 }
 

@@ -51,36 +51,43 @@ fn slots<S: Simd>(
     piece: &Piece,
 ) -> f64x8<S> {
     let distance = nearest.distance[chunk].load(simd);
-    let mut direction = [distance; 3];
     let mut point = [distance; 3];
-    for axis in 0..3 {
-        direction[axis] = rays.direction[axis][chunk].load(simd);
-        point[axis] = rays.origin[axis] + direction[axis] * distance;
+    for (axis, point) in point.iter_mut().enumerate() {
+        *point = rays.origin[axis] + rays.direction[axis][chunk].load(simd) * distance;
     }
     let [u_rounding, v_rounding] = piece.rounding;
-    let i = slot(point, direction, piece.u, (piece.u0, piece.nu, u_rounding));
-    let j = slot(point, direction, piece.v, (piece.v0, piece.nv, v_rounding));
+    let u = (along(point, piece.u) - piece.u0).max(0.0);
+    let v = (along(point, piece.v) - piece.v0).max(0.0);
+    let (mut i, mut j) = (u.floor(), v.floor());
+    let near = off_border(u, i).simd_le(u_rounding) | off_border(v, j).simd_le(v_rounding);
+    if !near.all_false() {
+        let direction = std::array::from_fn(|axis| rays.direction[axis][chunk].load(simd));
+        i = by_direction(u, i, along(direction, piece.u), u_rounding);
+        j = by_direction(v, j, along(direction, piece.v), v_rounding);
+    }
+    i = i.min(f64::from(piece.nu - 1));
+    j = j.min(f64::from(piece.nv - 1));
     f64::from(piece.first_slot) + (j * f64::from(piece.nu) + i)
 }
 
-/// The slot of points along one direction.
+/// How far places in slots are from the nearest border. Exact, since they are so near.
 #[inline(always)]
-fn slot<S: Simd>(
-    point: [f64x8<S>; 3],
-    direction: [f64x8<S>; 3],
-    axis: DVec3,
-    (start, n, rounding): (f64, u32, f64),
+fn off_border<S: Simd>(place: f64x8<S>, slot: f64x8<S>) -> f64x8<S> {
+    let above = place - slot;
+    above.min(1.0 - above)
+}
+
+/// The slots of places, where those within `rounding` of a border belong to the slot that the ray comes from.
+#[inline(always)]
+fn by_direction<S: Simd>(
+    place: f64x8<S>,
+    slot: f64x8<S>,
+    direction: f64x8<S>,
+    rounding: f64,
 ) -> f64x8<S> {
-    let place = (along(point, axis) - start).max(0.0);
     let border = (place + 0.5).floor();
-    let mut slot = place.floor();
-    let off = place - border;
-    let near = off.max(-off).simd_le(rounding);
-    if !near.all_false() {
-        let rising = along(direction, axis).simd_gt(rounding);
-        slot = near.select(rising.select(border - 1.0, border), slot);
-    }
-    slot.max(0.0).min(f64::from(n - 1))
+    let owner = direction.simd_gt(rounding).select(border - 1.0, border);
+    off_border(place, slot).simd_le(rounding).select(owner, slot).max(0.0)
 }
 
 /// A function, since closures that are not inlined compute without the processor's vectors.

@@ -70,7 +70,7 @@ impl<'a> Walk<'a> {
         nearest: &Nearest,
         cast: u64,
     ) -> Walked {
-        let found = nearest.found();
+        let (found, rounding) = (nearest.found(), self.view.grid.rounding);
         let mut walked = Walked::default();
         let mut rest = cast;
         while rest != 0 {
@@ -83,7 +83,6 @@ impl<'a> Walk<'a> {
                 for group in 0..self.here.len() {
                     let group = self.here[group];
                     let ahead = group.ahead.map(|plane| self.view.planes[plane as usize]);
-                    let rounding = self.view.grid.rounding;
                     let crossings =
                         next_crossings(simd, rays, nearest, group.rays, ahead, rounding);
                     self.step(&course, group, crossings, found, &mut walked);
