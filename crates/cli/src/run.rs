@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use config::{Dimension, parse};
 use lab::{
     Claim, Endings, FileKind, HostClock, On, Options, Plan, Preparing, Results, ShotFiles, Traces,
-    Viewing, check_writable, find_here,
+    Viewing, check_writable, difference, find_here, folder_for,
 };
 use traces::{Format, Sample};
 
@@ -22,7 +22,8 @@ pub struct Arguments {
     /// Name of an experiment, or path to an experiment file. Scenes and machines are looked up in scenes/ and
     /// machines/ next to its folder, then in the current folder, then among those that are built in
     experiment: String,
-    /// Folder for the results [default: results/<name of the experiment file>]
+    /// Folder for the results [default: results/<name of the experiment file>, followed by what --set and
+    /// --network change]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
@@ -38,6 +39,9 @@ pub struct Arguments {
     /// Where the parallel program runs
     #[arg(long, value_enum, default_value = "simulation")]
     on: OnArgument,
+    /// Replace the results of another configuration that the folder holds
+    #[arg(long)]
+    replace: bool,
     /// Discard the finished runs of an interrupted sweep
     #[arg(long)]
     fresh: bool,
@@ -110,19 +114,21 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let clock = HostClock::start();
     let network = network(arguments)?;
     let set: Vec<String> = arguments.set.iter().cloned().chain(network).collect();
+    let short = arguments.network.iter().map(|model| format!("network={model}"));
+    let changes: Vec<String> = arguments.set.iter().cloned().chain(short).collect();
     let threads = arguments.threads.count();
     let memory = arguments.memory.unwrap_or_else(lab::half_of_free_memory);
     let found = find_here(&FileKind::EXPERIMENTS, &arguments.experiment);
     let file = found.map_err(Exit::bad_input)?.path;
-    let default = || PathBuf::from("results").join(file.file_stem().unwrap_or_default());
-    let out = arguments.out.clone().unwrap_or_else(default);
+    let name = file.file_stem().unwrap_or_default().to_string_lossy();
+    let out = arguments.out.clone().unwrap_or_else(|| folder_for(&name, &changes));
     for folder in [out.join(".partial"), out.clone()] {
         check_writable(&folder).map_err(Exit::bad_input)?;
     }
     let pilots = Pilots::new(arguments.quiet);
     let on_pilot = |scene: &str, target, runs| pilots.update(scene, target, runs);
     let preparing = Preparing { threads, memory, finding: true, on_pilot: &on_pilot };
-    let plan = Arc::new(Plan::read(&file, &set, &preparing)?);
+    let plan = Arc::new(Plan::read(&file, &set, &preparing)?.changed(&changes));
     pilots.end();
     if !arguments.quiet {
         print_warnings(&plan.warnings);
@@ -135,12 +141,18 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     }
     let shot_files = arguments.keep_shots.as_deref().map(open_shot_files).transpose()?;
     let live = arguments.live.start(&plan)?;
-    let claim = Claim::of(&out).map_err(Exit::bad_input)?;
-
     let on = match arguments.on {
         OnArgument::Simulation => On::Simulation,
         OnArgument::Threads => On::Threads,
     };
+    if let Some(difference) = difference(&plan, on, &out).filter(|_| !arguments.replace) {
+        return Err(Exit::bad_input(format!(
+            "{place}: has results of another configuration: {difference}; expected the same, another folder by \
+             --out, or --replace"
+        )));
+    }
+    let claim = Claim::of(&out).map_err(Exit::bad_input)?;
+
     let viewing = arguments.viewer.clone();
     let progress = Arc::new(Progress::new(Arc::clone(&plan), arguments.quiet));
     let (fresh, counters) = (arguments.fresh, progress.shows_counters());

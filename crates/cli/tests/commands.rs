@@ -57,6 +57,7 @@ fn a_run_prints_its_table_and_writes_its_results() {
     let expected = [
         "host-times.json",
         "manifest.json",
+        "origin.json",
         "report.html",
         "runs.csv",
         "speed_up-by-processors.svg",
@@ -340,4 +341,53 @@ fn bench_rays_counts_every_ray() {
     assert_eq!((fast[0], fast[1] + fast[2]), (600, 600));
     assert_eq!(counts(&["--plain"]), fast);
     assert_eq!(counts(&["--threads", "4"]), fast);
+}
+
+/// No run overwrites results of another configuration, and what is written anew has no figure of before.
+#[test]
+fn a_folder_of_results_belongs_to_one_configuration() {
+    let project = Project::new(SWEEP);
+    let run = |more: &[&str]| output(&project, &[&["run", "experiments/x.json"], more].concat());
+    let read = |file: &str| fs::read_to_string(project.path(file)).unwrap();
+    assert_eq!(run(&[]).0, 0);
+    let csv = read("results/x/runs.csv");
+    // What is changed on the command line has a folder and a title of its own.
+    assert_eq!(run(&["--set", "processors=[1,2]", "--network", "ideal"]).0, 0);
+    let folder = "results/x+processors=1,2+network=ideal";
+    let manifest: serde_json::Value =
+        serde_json::from_str(&read(&format!("{folder}/manifest.json"))).unwrap();
+    let title = manifest["title"].as_str().unwrap();
+    assert!(title.ends_with(" (processors=[1,2], network=ideal)"), "{title}");
+    assert_eq!(run(&["--set", "processors=[1,2]", "--network", "ideal"]).0, 0);
+    for (more, message) in [
+        (&["--set", "processors=[1,2]"][..], "processors is [1,2,4] there and [1,2] here"),
+        (&["--set", "patch_size=0.9 m"], "patch_size is "),
+        (&["--set", "stop.collect_every=2 s"], "stop.collect_every is "),
+        (&["--set", "machine.network.model=ideal"], "machine"),
+        (&["--on", "threads"], "on is \"simulation\" there and \"threads\" here"),
+    ] {
+        let arguments = [more, &["--out", "results/x"]].concat();
+        let (code, stdout, stderr) = run(&arguments);
+        assert_eq!((code, stdout.as_str()), (2, ""), "{more:?}: {stderr}");
+        assert!(stderr.contains("results/x: has results of another configuration: "), "{stderr}");
+        assert!(stderr.contains(message), "{more:?}: {stderr}");
+        assert_eq!(read("results/x/runs.csv"), csv, "{more:?}");
+    }
+    // A changed file is another configuration, a changed title is not.
+    let materials = read("scenes/box.mtl");
+    project.write("scenes/box.mtl", &materials.replace("0.5", "0.6"));
+    let (code, _, stderr) = run(&[]);
+    assert!(code == 2 && stderr.contains("SHA-256 of file scenes/box.mtl is "), "{stderr}");
+    project.write("scenes/box.mtl", &materials);
+    assert_eq!(run(&["--set", "title=Another", "--out", "results/x"]).0, 0);
+    // What is replaced leaves no figure behind.
+    let figures = || {
+        let names = fs::read_dir(project.path("results/x")).unwrap();
+        let names = names.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        names.filter(|name| name.ends_with(".svg")).collect::<Vec<_>>()
+    };
+    assert!(!figures().is_empty());
+    assert_eq!(run(&["--set", "plots=[]", "--out", "results/x"]).0, 0);
+    assert_eq!(figures(), [""; 0]);
+    assert_eq!(run(&["--set", "processors=1", "--out", "results/x", "--replace"]).0, 0);
 }

@@ -32,6 +32,7 @@ pub use open::ray_bench::RayBench;
 pub use open::scene_file::scene_schema;
 pub use planning::plan::Plan;
 pub use planning::preparing::Preparing;
+pub use results::configuration::{difference, folder_for};
 pub use results::folder::{Results, write_host_times};
 pub use results::live_page::live_page;
 pub use results::networks::text as networks_text;

@@ -42,6 +42,15 @@ pub struct Plan {
 }
 
 impl Plan {
+    /// The same plan, whose title says what was changed: `path=value` arguments.
+    pub fn changed(mut self, changes: &[String]) -> Plan {
+        if !changes.is_empty() && !changes.iter().any(|change| change.starts_with("title=")) {
+            self.title += &format!(" ({})", changes.join(", "));
+            self.resolved["title"] = self.title.clone().into();
+        }
+        self
+    }
+
     /// The settings that were found, a sentence each.
     pub fn settings_found(&self) -> Vec<String> {
         let found = self.runs.iter().filter_map(|run| Some(run.tuned?.sentence(&run.point.scene)));

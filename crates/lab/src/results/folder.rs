@@ -87,9 +87,12 @@ impl Results {
             return Err(io::Error::other(message));
         }
         file::make_folder(out)?;
+        let before = figures(&out.join("manifest.json"));
         file::write(&out.join("runs.csv"), &self.table.to_csv()?)?;
         file::write(&out.join("manifest.json"), pretty(&self.manifest)?.as_bytes())?;
-        self.draw(out)?;
+        let names = self.draw(out)?;
+        let stale = before.iter().filter(|name| !names.contains(name));
+        stale.into_iter().try_for_each(|name| file::remove(&out.join(name)))?;
         if self.failures() == 0 {
             Saved::in_folder(out).forget()?;
         }
@@ -139,6 +142,14 @@ impl Results {
         // Validated when the plan was made, or when the manifest was read.
         serde_json::from_value(self.manifest["experiment"]["plots"].clone()).unwrap_or_default()
     }
+}
+
+/// The files of the figures of the results with this manifest; none if it cannot be read.
+fn figures(manifest: &Path) -> Vec<String> {
+    let Ok(document) = Document::read(manifest) else { return Vec::new() };
+    let plots = read::<Vec<Plot>>(&document.value["experiment"]["plots"]).unwrap_or_default();
+    let stems = plots.iter().map(Plot::stem).filter(|stem| is_plain(stem));
+    stems.map(|stem| format!("{stem}.svg")).collect()
 }
 
 /// Provenance of the results: everything that decides them, and nothing of the host.

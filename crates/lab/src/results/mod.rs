@@ -1,6 +1,7 @@
 //! From finished runs to tables, plots and reports.
 
 pub mod chart; // Plots as SVG.
+pub mod configuration; // Which configuration results are of.
 pub mod console; // The table of results as text.
 pub mod folder; // The files of a folder of results.
 pub mod host_times; // Columns of host times.
