@@ -318,7 +318,7 @@ fn faults_name_place_value_and_what_was_expected() {
         ),
         (
             with("/network/links/buffer_flits/value", json!(3)),
-            "m.json: network.links.buffer_flits.value: found 3; expected at least 4, as many as cross a link during a hop",
+            "m.json: network.links.buffer_flits.value: found 3; expected at least 4, as many as leave until the first one's room can be used again",
         ),
         (
             with("/processor/clock", json!({ "value": "50 MHz", "provenanse": "published" })),

@@ -9,8 +9,8 @@ use std::path::PathBuf;
 use desim::{Duration, Simulation, Time};
 use multicomputer::{
     Channel, LinkParameters, Load, LogGpParameters, Machine, Measured, Multicomputer, Network,
-    NetworkModel, NetworkParameters, Pattern, Place, ReplayedMessage, Shape, Topology, Trace,
-    TraceMessage, exchange, ping_pong, replay,
+    NetworkModel, NetworkParameters, Pattern, Place, ReplayedMessage, RouterStages, Shape,
+    Topology, Trace, TraceMessage, exchange, ping_pong, replay,
 };
 use proptest::prelude::*;
 
@@ -134,7 +134,13 @@ fn an_exchange_of_neighbours_costs_the_same_with_and_without_contention() {
 fn bare(flit_bytes: u64, cycles: u64, virtual_channels: u32) -> NetworkParameters {
     let bandwidth = flit_bytes as f64 * 1e9;
     let software = LogGpParameters::bare(Duration(1_000) * cycles, bandwidth);
-    let links = LinkParameters { bandwidth, flit_bytes, buffer_flits: 8, virtual_channels };
+    let links = LinkParameters {
+        bandwidth,
+        flit_bytes,
+        buffer_flits: 8,
+        virtual_channels,
+        stages: RouterStages::default(),
+    };
     NetworkParameters { software: Some(software), links: Some(links) }
 }
 

@@ -34,6 +34,8 @@ pub struct Flit {
     software: LogGpParameters,
     links: LinkParameters,
     routers: Routers,
+    /// The part of the latency that passes outside the routers.
+    outside: Duration,
     /// Number of the next cycle.
     next: u64,
     ports: Vec<Port>,
@@ -70,7 +72,9 @@ struct Sending {
 impl Flit {
     /// An empty network.
     pub fn new(software: LogGpParameters, links: LinkParameters, topology: &Topology) -> Flit {
+        let first_router = links.cycle() * links.stages.of_head();
         Flit {
+            outside: software.latency - first_router,
             routers: Routers::new(links.clone(), software.hop_time, topology),
             software,
             links,
@@ -101,7 +105,8 @@ impl Flit {
         port.sending = Some(Sending { worm: number, flits, since, from, gone: 0 });
     }
 
-    /// The next cycle in which a flit can move; none if the network is empty.
+    /// The next cycle in which a flit can move; none if the network is empty. It is simulated at its end, so
+    /// that messages sent at its beginning are part of it.
     fn next_cycle(&self) -> Option<u64> {
         if !self.routers.are_empty() {
             return Some(self.next);
@@ -120,8 +125,8 @@ impl Flit {
         let step = self.routers.step(now);
         let rest = self.routers.rest(self.software.hop_time);
         for number in step.out {
-            let way = rest * self.routers.worm(number).hops() + self.software.latency;
-            self.arrivals.schedule(self.routers.time(now.saturating_add(1)) + way, number);
+            let way = rest * self.routers.worm(number).hops() + self.outside;
+            self.arrivals.schedule(self.routers.end(now) + way, number);
         }
         alive || step.alive
     }
@@ -135,7 +140,7 @@ impl Flit {
         }
         sending.gone += 1;
         if gone + 1 == flits {
-            let end = self.routers.time(now.saturating_add(1));
+            let end = self.routers.end(now);
             self.routers.injected(worm, end - since);
             self.ports[place].free = end + self.software.gap;
             self.ports[place].sending = None;
@@ -158,7 +163,7 @@ impl Network for Flit {
     }
 
     fn next_event(&self) -> Option<Time> {
-        let cycle = self.next_cycle().map(|cycle| self.routers.time(cycle));
+        let cycle = self.next_cycle().map(|cycle| self.routers.end(cycle));
         [self.sent.next_time(), cycle, self.arrivals.next_time()].into_iter().flatten().min()
     }
 
@@ -169,7 +174,7 @@ impl Network for Flit {
                 self.ports[place].queue.push_back((number, at));
                 self.start_next(place);
             }
-            if let Some(cycle) = self.next_cycle().filter(|&cycle| self.routers.time(cycle) <= time)
+            if let Some(cycle) = self.next_cycle().filter(|&cycle| self.routers.end(cycle) <= time)
                 && !self.step(cycle)
             {
                 return Err(self.routers.deadlock());
