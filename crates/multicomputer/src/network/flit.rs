@@ -3,18 +3,21 @@
 //!
 //! A router has a buffer for each incoming virtual channel. In every cycle
 //! 1. each node's port puts a flit of the message that it sends into its router, if there is room;
-//! 2. each head at the front of a buffer gets a virtual channel of the channel that its route takes
-//!    next, if one is free: first come, first served, and the lower number where two came at once;
+//! 2. each head that has been at the front of a buffer for the cycles of routing gets a virtual channel
+//!    of the channel that its route takes next, if one is free: first come, first served, and the
+//!    lower number where two came at once. It can leave after the cycles of allocation;
 //! 3. each channel transfers at most one flit, and of the buffers of each channel at most one sends a
-//!    flit: of those with room ahead, the one served longest ago. The flit can leave the next buffer
+//!    flit: of those with room ahead, the one served longest ago. A head can leave the next buffer
 //!    `hop_time` later, rounded down to cycles, at least one; the remainder is added when the
-//!    message arrives. A node receives a flit a cycle.
+//!    message arrives. Other flits save the cycles of routing and allocation. A node receives a flit a cycle.
 //!
 //! Choice C21: the details of a Paragon's router are unpublished; this is the simplest one with all of
-//! these mechanisms.
+//! these mechanisms. Its heads are routed and allocated in the cycle in which they leave.
 //!
-//! A virtual channel is free again when the tail has passed it. Room in a buffer can be used one cycle
-//! after the flit has left.
+//! A virtual channel is free again when the tail has passed it. Room in a buffer can be used when the
+//! credit is back: `credit` cycles after the flit has left.
+//!
+//! A message passes one router more than links. The stages of the first one are part of the latency.
 
 use std::collections::VecDeque;
 
@@ -115,7 +118,7 @@ impl Flit {
         starts.min().map(|from| from.max(self.next))
     }
 
-    /// Simulates a cycle. Returns whether a flit moved, or is on its way through a router.
+    /// Simulates a cycle. Returns whether a flit moved, or something else is under way in a router.
     fn step(&mut self, now: u64) -> bool {
         self.next = now.saturating_add(1);
         let mut alive = false;
