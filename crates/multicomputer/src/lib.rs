@@ -25,8 +25,8 @@ pub use machine::{
 pub use network::{
     Arrival, AutoResult, Channel, ChannelUse, ContentionFree, Deadlock, Delivery, Flit, Formula,
     Hop, Ideal, Link, LinkParameters, LogGp, LogGpParameters, Message, ModelChoice, Network,
-    NetworkModel, NetworkParameters, Place, Position, Record, RecordedMessage, Recorder, Shape,
-    Stall, Topology, Waiting, Wormhole, choose,
+    NetworkModel, NetworkParameters, Place, Position, Record, RecordedMessage, Recorder,
+    RouterStages, Shape, Stall, Topology, Waiting, Wormhole, choose,
 };
 pub use node::{
     Activity, CacheLevel, Caches, FullBuffers, LayerAccount, MachineObserver, MessageLayer, Node,

@@ -209,6 +209,14 @@ fn with(pointer: &str, value: Value) -> Value {
     file
 }
 
+/// The shipped file with one more field of its links, a number.
+fn with_link_field(name: &str, value: i64) -> Value {
+    let mut file = paragon();
+    file["network"]["links"][name] =
+        json!({ "value": value, "provenance": "assumed", "source": "a test" });
+    file
+}
+
 /// The shipped file without the key at the end of a JSON pointer.
 fn without(object: &str, key: &str) -> Value {
     let mut file = paragon();
@@ -318,7 +326,23 @@ fn faults_name_place_value_and_what_was_expected() {
         ),
         (
             with("/network/links/buffer_flits/value", json!(3)),
-            "m.json: network.links.buffer_flits.value: found 3; expected at least 4, as many as cross a link during a hop",
+            "m.json: network.links.buffer_flits.value: found 3; expected at least 4, as many as leave until the first one's room can be used again",
+        ),
+        (
+            with_link_field("allocation_cycles", 3),
+            "m.json: network.links: found 3 cycles of routing and allocation; expected fewer than the 3 of a hop",
+        ),
+        (
+            with_link_field("credit_cycles", 6),
+            "m.json: network.links.buffer_flits.value: found 8; expected at least 9, as many as leave until the first one's room can be used again",
+        ),
+        (
+            with_link_field("credit_cycles", 0),
+            "m.json: network.links.credit_cycles.value: found 0; expected a whole number, 1 to 255",
+        ),
+        (
+            with_link_field("routing_cycles", -1),
+            "m.json: network.links.routing_cycles.value: found -1; expected a whole number, 0 or more",
         ),
         (
             with("/processor/clock", json!({ "value": "50 MHz", "provenanse": "published" })),

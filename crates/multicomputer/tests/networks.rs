@@ -9,8 +9,8 @@ use std::path::PathBuf;
 use desim::{Duration, Simulation, Time};
 use multicomputer::{
     Channel, LinkParameters, Load, LogGpParameters, Machine, Measured, Multicomputer, Network,
-    NetworkModel, NetworkParameters, Pattern, Place, ReplayedMessage, Shape, Topology, Trace,
-    TraceMessage, exchange, ping_pong, replay,
+    NetworkModel, NetworkParameters, Pattern, Place, ReplayedMessage, RouterStages, Shape,
+    Topology, Trace, TraceMessage, exchange, ping_pong, replay,
 };
 use proptest::prelude::*;
 
@@ -130,33 +130,58 @@ fn an_exchange_of_neighbours_costs_the_same_with_and_without_contention() {
     }
 }
 
+#[test]
+fn alone_a_message_takes_the_same_time_whatever_the_routers_stages() {
+    let paragon = machine("paragon-xps");
+    let arrival = |stages: RouterStages| {
+        let mut parameters = paragon.parameters.clone();
+        parameters.links.as_mut().unwrap().stages = stages;
+        let mut network = parameters.build(NetworkModel::Flit, paragon.topology()).unwrap();
+        let trace = Trace { messages: vec![item(Time::ZERO, 0, 55, 4_096)] };
+        replay(&trace, network.as_mut(), paragon.topology()).unwrap()[0].arrived
+    };
+    // A hop of 40 ns is three cycles.
+    let default = RouterStages::default();
+    for (routing, allocation) in [(0, 0), (1, 0), (0, 1), (1, 1), (0, 2)] {
+        for credit in [1, 2, 5] {
+            let stages = RouterStages { routing, allocation, credit };
+            assert_eq!(arrival(stages), arrival(default), "{stages:?}");
+        }
+    }
+}
+
+/// A message that waits at a router has been routed when the channel is free, and only its allocation takes
+/// cycles more; one in the same buffer as the message before it is routed as well.
+#[test]
+fn a_channel_is_idle_while_its_next_message_is_allocated_to_it() {
+    let topology = Topology::new(Shape::Mesh { width: 3, height: 1 });
+    for (routing, allocation) in [(0, 0), (1, 0), (0, 1), (1, 1), (0, 3)] {
+        for (second, idle) in [(2, allocation), (0, routing + allocation)] {
+            let mut parameters = bare(1, 6, 1);
+            parameters.links.as_mut().unwrap().stages =
+                RouterStages { routing, allocation, credit: 1 };
+            let mut network = parameters.build(NetworkModel::Flit, &topology).unwrap();
+            let items = [item(Time::ZERO, 0, 1, 100), item(Time(12_000), second, 1, 20)];
+            let trace = Trace { messages: items.to_vec() };
+            let replayed = replay(&trace, network.as_mut(), &topology).unwrap();
+            let apart = replayed[1].arrived - replayed[0].arrived;
+            assert_eq!(apart, Duration(1_000) * (20 + idle), "{second} {routing} {allocation}");
+        }
+    }
+}
+
 /// A network without software, with a cycle of 1 ns and a hop of `cycles`.
 fn bare(flit_bytes: u64, cycles: u64, virtual_channels: u32) -> NetworkParameters {
     let bandwidth = flit_bytes as f64 * 1e9;
     let software = LogGpParameters::bare(Duration(1_000) * cycles, bandwidth);
-    let links = LinkParameters { bandwidth, flit_bytes, buffer_flits: 8, virtual_channels };
-    NetworkParameters { software: Some(software), links: Some(links) }
-}
-
-/// BookSim2 for this set-up: 8 × 8 mesh, XY, one virtual channel, buffers of 8 flits, packets of 20
-/// flits, uniform traffic saturates at 0.23 to 0.24 flits a cycle and node. A hop takes 5 cycles, as
-/// its default router does: route, virtual channel, switch, crossbar and link.
-#[test]
-fn flit_saturates_where_booksim_does() {
-    let topology = Topology::new(Shape::Mesh { width: 8, height: 8 });
-    let accepted = |offered: f64| {
-        let every = Duration((20_000.0 / offered) as u64);
-        let until = Time(8_000_000);
-        let load = Load { pattern: Pattern::Uniform, bytes: 20, every, until, seed: 1996 };
-        let trace = load.trace(&topology, 64);
-        let mut network = bare(1, 5, 1).build(NetworkModel::Flit, &topology).unwrap();
-        let replayed = replay(&trace, network.as_mut(), &topology).unwrap();
-        Measured::of(&load, &trace, &replayed).throughput / 64e9
+    let links = LinkParameters {
+        bandwidth,
+        flit_bytes,
+        buffer_flits: 8,
+        virtual_channels,
+        stages: RouterStages::default(),
     };
-    // Below saturation all that is offered arrives; beyond it no more than at saturation.
-    assert!((accepted(0.2) / 0.2 - 1.0).abs() < 0.03, "{}", accepted(0.2));
-    let saturated = accepted(0.4);
-    assert!((0.23 * 0.9..0.24 * 1.1).contains(&saturated), "{saturated}");
+    NetworkParameters { software: Some(software), links: Some(links) }
 }
 
 /// Mean latencies of both models with contention below saturation, that is where flits take less than
@@ -236,10 +261,13 @@ proptest! {
         shape in shapes(),
         letters in prop::collection::vec((0..100_usize, 0..100_usize, 1..600_u64, 0..900_u64), 1..40),
         model in prop::sample::select(ABOVE_IDEAL.to_vec()),
+        stages in prop::sample::select(vec![(0, 0, 1), (1, 0, 3), (0, 1, 2)]),
     ) {
         let topology = Topology::new(shape);
         let places = topology.places();
-        let parameters = bare(4, 2, 2);
+        let mut parameters = bare(4, 2, 2);
+        let (routing, allocation, credit) = stages;
+        parameters.links.as_mut().unwrap().stages = RouterStages { routing, allocation, credit };
         let software = parameters.software.clone().unwrap();
         let items = letters.iter().map(|&(from, to, bytes, at)| {
             item(Time(at * 1_000), from % places, to % places, bytes)

@@ -4,8 +4,8 @@
 
 use desim::{Duration, Time};
 use multicomputer::{
-    LinkParameters, LogGpParameters, NetworkModel, NetworkParameters, Place, Schedule, Shape,
-    Topology, Trace, TraceMessage, perform, replay,
+    LinkParameters, LogGpParameters, NetworkModel, NetworkParameters, Place, RouterStages,
+    Schedule, Shape, Topology, Trace, TraceMessage, perform, replay,
 };
 
 /// L, o, g in nanoseconds, and bytes a second, on a crossbar without hop time.
@@ -124,8 +124,13 @@ fn simgrid_routes_the_shorter_way_round_a_torus() {
     let topology = Topology::new(Shape::Torus { width: 3, height: 2 });
     let (latency, bandwidth) = (Duration(50_000_000), 125e6);
     let software = LogGpParameters::bare(latency, bandwidth);
-    let links =
-        LinkParameters { bandwidth, flit_bytes: 1_000, buffer_flits: 8, virtual_channels: 2 };
+    let links = LinkParameters {
+        bandwidth,
+        flit_bytes: 1_000,
+        buffer_flits: 8,
+        virtual_channels: 2,
+        stages: RouterStages::default(),
+    };
     let parameters = NetworkParameters { software: Some(software), links: Some(links) };
     for model in [NetworkModel::LogGp, NetworkModel::Wormhole] {
         for (to, hops) in [(1, 1), (2, 1), (3, 1), (4, 2), (5, 2)] {

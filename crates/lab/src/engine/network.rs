@@ -12,7 +12,9 @@ const TOLERANCE: f64 = 0.01;
 /// Figures of the network in a run's results, if an experiment chooses a model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NetworkFigures {
-    pub rung: String,
+    /// The name of the model that was used.
+    pub model: String,
+    /// Why the automatic choice took it.
     pub why: String,
     pub busiest_link: Option<f64>,
     pub blocked_s: f64,
@@ -65,19 +67,23 @@ pub fn simulate(
 }
 
 /// The network model of a run. If the machine leaves it open, a simulation chooses it.
-pub fn rung(run: &Run, machine: &Machine, point: &Experiment) -> Result<NetworkModel, RunError> {
+pub fn model_used(
+    run: &Run,
+    machine: &Machine,
+    point: &Experiment,
+) -> Result<NetworkModel, RunError> {
     if let Some(model) = machine.network_model {
         return Ok(model);
     }
     let (_, figures) = simulate(run, machine, point, None)?;
-    Ok(figures.and_then(|figures| figures.rung.parse().ok()).unwrap_or(NetworkModel::LogGp))
+    Ok(figures.and_then(|figures| figures.model.parse().ok()).unwrap_or(NetworkModel::LogGp))
 }
 
 fn figures(machine: &Machine, chosen: &AutoResult<Outcome>) -> NetworkFigures {
     let AutoResult { record, time, .. } = chosen;
     let links = machine.parameters.links.as_ref();
     NetworkFigures {
-        rung: chosen.model.to_string(),
+        model: chosen.model.to_string(),
         why: chosen.why.clone(),
         busiest_link: links.map(|links| record.busiest_link(machine.topology(), links, *time)),
         blocked_s: record.blocked().as_seconds_f64(),

@@ -175,7 +175,7 @@ pub fn light_at(
             light.borrow_mut().push(instant.radiosity().map(Iterator::collect).collect());
         }
     };
-    let outcome = network::rung(run, machine, point)
+    let outcome = network::model_used(run, machine, point)
         .and_then(|model| Ok(machine.network_on(model)?))
         .and_then(|network| virtwall::visit_instants(run, machine, network, times, visit))
         .map_err(|error| error.to_string())?;
@@ -215,7 +215,7 @@ pub fn stops(
             });
         }
     };
-    let model = network::rung(run, machine, point).map_err(|error| error.to_string())?;
+    let model = network::model_used(run, machine, point).map_err(|error| error.to_string())?;
     // With several environments a run does not begin like one with a lower threshold, so each threshold
     // needs a run of its own.
     let per_run = if run.problem.environments.len() == 1 { thresholds.len().max(1) } else { 1 };

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use config::{Document, Fault, json, read_text};
-use multicomputer::{LinkParameters, Trace, Workload};
+use multicomputer::{LinkParameters, RouterStages, Trace, Workload};
 
 use crate::engine::simulator;
 use crate::files::find::Found;
@@ -70,8 +70,13 @@ pub fn check(path: &Path) -> Result<Checked, Fault> {
 
 /// A file of messages, for any number of nodes and any links.
 fn workload(path: &Path) -> Result<Checked, Fault> {
-    let links =
-        LinkParameters { bandwidth: 1e9, flit_bytes: 1, buffer_flits: 1, virtual_channels: 1 };
+    let links = LinkParameters {
+        bandwidth: 1e9,
+        flit_bytes: 1,
+        buffer_flits: 1,
+        virtual_channels: 1,
+        stages: RouterStages::default(),
+    };
     let what = match Workload::read(path, usize::MAX, Some(&links))? {
         Workload::Trace(trace) => format!("a trace, {} messages", trace.messages.len()),
         Workload::Schedule(schedule) => {

@@ -27,7 +27,7 @@ pub fn finest(plan: &Plan, endings: &Endings) -> Finest {
 /// The network model of a run that has figures of its network, and the run's virtual seconds.
 fn of(ending: &Ending) -> Option<(NetworkModel, f64)> {
     let figures = ending.as_ref().ok()?;
-    let model = figures.network.as_ref()?.rung.parse().ok()?;
+    let model = figures.network.as_ref()?.model.parse().ok()?;
     Some((model, figures.time_s?))
 }
 

@@ -74,7 +74,7 @@ pub const COLUMNS: &[Column] = &[
         Some(counts.collect::<Vec<_>>().join(" "))
     }),
     column("failure", "Why the run failed.", always, |r| r.failure.map(str::to_owned)),
-    column("network_used", "Network model used.", on_network, |r| text(&r.network()?.rung)),
+    column("network_used", "Network model used.", on_network, |r| text(&r.network()?.model)),
     column("network_why", "Why, if it was chosen automatically.", on_network, |r| {
         text(&r.network()?.why)
     }),

@@ -222,6 +222,17 @@ pub(crate) struct LinksFile {
     pub(crate) buffer_flits: Sourced<NonZeroU16>,
     /// Virtual channels a link.
     pub(crate) virtual_channels: Sourced<NonZeroU8>,
+    /// Cycles in which a router finds the way of a head at the front of its buffer, part of the time of a hop;
+    /// 0 if left out. This and the next two are of the model `flit`.
+    #[serde(default)]
+    pub(crate) routing_cycles: Option<Sourced<u8>>,
+    /// Cycles from when a head gets a virtual channel until it can leave, part of the time of a hop; 0 if
+    /// left out. A channel carries nothing meanwhile, unless it has other virtual channels.
+    #[serde(default)]
+    pub(crate) allocation_cycles: Option<Sourced<u8>>,
+    /// Cycles from when a flit leaves a buffer until its room can be used again; 1 if left out.
+    #[serde(default)]
+    pub(crate) credit_cycles: Option<Sourced<NonZeroU8>>,
 }
 
 /// The fields of a machine file, as a schema without references.

@@ -5,24 +5,15 @@ use serde_json::Value;
 use thiserror::Error;
 
 use super::caches as cache;
-use super::file::{
-    FIELDS, LinksFile, LogGpFile, MachineFile, NetworkFile, NodeMemoryFile, ProcessorFile,
-};
+use super::file::{FIELDS, MachineFile, NodeMemoryFile, ProcessorFile};
+use super::network::network;
 use crate::display::{Display, DisplayFile};
-use crate::network::{
-    LinkParameters, LogGpParameters, Network, NetworkModel, NetworkParameters, Place, Shape,
-    Topology,
-};
+use crate::network::{Network, NetworkModel, NetworkParameters, Place, Shape, Topology};
 use crate::node::{MessageLayer, NodeMemory, Processor, StartUp, StartUpFile};
 use crate::sourced::Sourced;
 
 /// Largest number of places of a network; more is taken for a mistake in the file.
 const MOST_PLACES: u32 = 65_536;
-/// Longest flit, bytes. With longer ones a link's bandwidth could not be distinguished from a message's.
-const LONGEST_FLIT: f64 = 1e9;
-
-/// Largest number of virtual channels per link; real routers have a few.
-const MOST_VIRTUAL_CHANNELS: u8 = 16;
 /// Largest size of one thing in a node's memory, bytes, so that sums of sizes do not overflow.
 const LARGEST_THING: u64 = 1_000_000_000;
 
@@ -253,60 +244,6 @@ fn shape(file: &MachineFile) -> Result<(Shape, desim::Duration), Fault> {
     }
 }
 
-/// The chosen model of the network, with all that it needs.
-fn network(
-    file: &NetworkFile,
-    hop_time: desim::Duration,
-) -> Result<(Option<NetworkModel>, NetworkParameters), Fault> {
-    let software = file.parameters.as_ref().map(|parameters| loggp(parameters, hop_time));
-    let links = match (&file.links, &software) {
-        (Some(file), Some(software)) => Some(links(file, software)?),
-        (Some(_), None) => return refuse("network", "\"parameters\" is missing; expected it"),
-        (None, _) => None,
-    };
-    let model = file.model.model();
-    if model != Some(NetworkModel::Ideal) && software.is_none() {
-        return refuse("network", "\"parameters\" is missing; expected it");
-    }
-    if model.is_none_or(|model| model >= NetworkModel::Wormhole) && links.is_none() {
-        return refuse("network", "\"links\" is missing; expected it");
-    }
-    Ok((model, NetworkParameters { software, links }))
-}
-
-fn links(file: &LinksFile, software: &LogGpParameters) -> Result<LinkParameters, Fault> {
-    let (bandwidth, flit) = (file.bandwidth.si(), file.flit.si());
-    if bandwidth < software.bandwidth {
-        let (found, least) = (bandwidth / 1e6, software.bandwidth / 1e6);
-        let message =
-            format!("found {found} MB/s; expected at least {least} MB/s, the bandwidth of");
-        return refuse("network.links.bandwidth.value", message + " the message layer");
-    }
-    if !(1.0..=LONGEST_FLIT).contains(&flit) || flit.fract() != 0.0 {
-        let message = format!("found {flit} B; expected a whole number of bytes, at least 1");
-        return refuse("network.links.flit.value", message);
-    }
-    let virtual_channels = file.virtual_channels.value.get();
-    if virtual_channels > MOST_VIRTUAL_CHANNELS {
-        let message = format!("found {virtual_channels}; expected 1 to {MOST_VIRTUAL_CHANNELS}");
-        return refuse("network.links.virtual_channels.value", message);
-    }
-    let links = LinkParameters {
-        bandwidth,
-        flit_bytes: flit as u64,
-        buffer_flits: file.buffer_flits.value.get().into(),
-        virtual_channels: virtual_channels.into(),
-    };
-    // Room in a buffer counts again a cycle after a flit has crossed the next hop.
-    let least = links.cycles(software.hop_time) + 1;
-    if u64::from(links.buffer_flits) < least {
-        let found = format!("found {}; expected at least {least}", links.buffer_flits);
-        let message = found + ", as many as cross a link during a hop";
-        return refuse("network.links.buffer_flits.value", message);
-    }
-    Ok(links)
-}
-
 fn processor(file: ProcessorFile) -> Result<Processor, Fault> {
     let cycles = file.operations.into_iter().map(|(name, cycles)| (name, cycles.si()));
     let translations = file.caches.as_ref().and_then(|caches| caches.translations.as_ref());
@@ -355,15 +292,4 @@ fn agree(memory: Option<&NodeMemory>, layer: &MessageLayer) -> Result<(), Fault>
     }
     let message = format!("found {buffers} B; expected {} B", memory.message_buffers);
     refuse("message_layer.buffers.value", message + ", as \"node_memory.message_buffers\" says")
-}
-
-fn loggp(file: &LogGpFile, hop_time: desim::Duration) -> LogGpParameters {
-    LogGpParameters {
-        send_overhead: file.send_overhead.duration(),
-        latency: file.latency.duration(),
-        hop_time,
-        receive_overhead: file.receive_overhead.duration(),
-        gap: file.gap.duration(),
-        bandwidth: file.bandwidth.si(),
-    }
 }

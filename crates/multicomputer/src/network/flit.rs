@@ -3,18 +3,21 @@
 //!
 //! A router has a buffer for each incoming virtual channel. In every cycle
 //! 1. each node's port puts a flit of the message that it sends into its router, if there is room;
-//! 2. each head at the front of a buffer gets a virtual channel of the channel that its route takes
-//!    next, if one is free: first come, first served, and the lower number where two came at once;
+//! 2. each head that has been at the front of a buffer for the cycles of routing gets a virtual channel
+//!    of the channel that its route takes next, if one is free: first come, first served, and the
+//!    lower number where two came at once. It can leave after the cycles of allocation;
 //! 3. each channel transfers at most one flit, and of the buffers of each channel at most one sends a
-//!    flit: of those with room ahead, the one served longest ago. The flit can leave the next buffer
+//!    flit: of those with room ahead, the one served longest ago. A head can leave the next buffer
 //!    `hop_time` later, rounded down to cycles, at least one; the remainder is added when the
-//!    message arrives. A node receives a flit a cycle.
+//!    message arrives. Other flits save the cycles of routing and allocation. A node receives a flit a cycle.
 //!
 //! Choice C21: the details of a Paragon's router are unpublished; this is the simplest one with all of
-//! these mechanisms.
+//! these mechanisms. Its heads are routed and allocated in the cycle in which they leave.
 //!
-//! A virtual channel is free again when the tail has passed it. Room in a buffer can be used one cycle
-//! after the flit has left.
+//! A virtual channel is free again when the tail has passed it. Room in a buffer can be used when the
+//! credit is back: `credit` cycles after the flit has left.
+//!
+//! A message passes one router more than links. The stages of the first one are part of the latency.
 
 use std::collections::VecDeque;
 
@@ -34,6 +37,8 @@ pub struct Flit {
     software: LogGpParameters,
     links: LinkParameters,
     routers: Routers,
+    /// The part of the latency that passes outside the routers.
+    outside: Duration,
     /// Number of the next cycle.
     next: u64,
     ports: Vec<Port>,
@@ -70,7 +75,9 @@ struct Sending {
 impl Flit {
     /// An empty network.
     pub fn new(software: LogGpParameters, links: LinkParameters, topology: &Topology) -> Flit {
+        let first_router = links.cycle() * links.stages.of_head();
         Flit {
+            outside: software.latency - first_router,
             routers: Routers::new(links.clone(), software.hop_time, topology),
             software,
             links,
@@ -101,7 +108,8 @@ impl Flit {
         port.sending = Some(Sending { worm: number, flits, since, from, gone: 0 });
     }
 
-    /// The next cycle in which a flit can move; none if the network is empty.
+    /// The next cycle in which a flit can move; none if the network is empty. It is simulated at its end, so
+    /// that messages sent at its beginning are part of it.
     fn next_cycle(&self) -> Option<u64> {
         if !self.routers.are_empty() {
             return Some(self.next);
@@ -110,7 +118,7 @@ impl Flit {
         starts.min().map(|from| from.max(self.next))
     }
 
-    /// Simulates a cycle. Returns whether a flit moved, or is on its way through a router.
+    /// Simulates a cycle. Returns whether a flit moved, or something else is under way in a router.
     fn step(&mut self, now: u64) -> bool {
         self.next = now.saturating_add(1);
         let mut alive = false;
@@ -120,8 +128,8 @@ impl Flit {
         let step = self.routers.step(now);
         let rest = self.routers.rest(self.software.hop_time);
         for number in step.out {
-            let way = rest * self.routers.worm(number).hops() + self.software.latency;
-            self.arrivals.schedule(self.routers.time(now.saturating_add(1)) + way, number);
+            let way = rest * self.routers.worm(number).hops() + self.outside;
+            self.arrivals.schedule(self.routers.end(now) + way, number);
         }
         alive || step.alive
     }
@@ -135,7 +143,7 @@ impl Flit {
         }
         sending.gone += 1;
         if gone + 1 == flits {
-            let end = self.routers.time(now.saturating_add(1));
+            let end = self.routers.end(now);
             self.routers.injected(worm, end - since);
             self.ports[place].free = end + self.software.gap;
             self.ports[place].sending = None;
@@ -158,7 +166,7 @@ impl Network for Flit {
     }
 
     fn next_event(&self) -> Option<Time> {
-        let cycle = self.next_cycle().map(|cycle| self.routers.time(cycle));
+        let cycle = self.next_cycle().map(|cycle| self.routers.end(cycle));
         [self.sent.next_time(), cycle, self.arrivals.next_time()].into_iter().flatten().min()
     }
 
@@ -169,7 +177,7 @@ impl Network for Flit {
                 self.ports[place].queue.push_back((number, at));
                 self.start_next(place);
             }
-            if let Some(cycle) = self.next_cycle().filter(|&cycle| self.routers.time(cycle) <= time)
+            if let Some(cycle) = self.next_cycle().filter(|&cycle| self.routers.end(cycle) <= time)
                 && !self.step(cycle)
             {
                 return Err(self.routers.deadlock());

@@ -16,6 +16,34 @@ pub struct LinkParameters {
     /// Virtual channels of a link: messages that can share it, flit by flit; at least 1. On a torus,
     /// if there are two or more, half of them are reserved for messages that have passed a ring's start.
     pub virtual_channels: u32,
+    /// Cycles of a router's stages.
+    pub stages: RouterStages,
+}
+
+/// Cycles of a router's stages, of which only the model `flit` takes notice. Every flit crosses switch and
+/// link, in what is left of the time of a hop.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RouterStages {
+    /// From when a head is at the front of its buffer until it asks for a virtual channel.
+    pub routing: u64,
+    /// From when a head gets a virtual channel until it can leave.
+    pub allocation: u64,
+    /// From when a flit leaves a buffer until its room can be used, at least 1.
+    pub credit: u64,
+}
+
+impl Default for RouterStages {
+    /// A router that routes and allocates in the cycle in which the head leaves.
+    fn default() -> RouterStages {
+        RouterStages { routing: 0, allocation: 0, credit: 1 }
+    }
+}
+
+impl RouterStages {
+    /// Cycles that only a head takes.
+    pub(crate) fn of_head(&self) -> u64 {
+        self.routing + self.allocation
+    }
 }
 
 impl LinkParameters {
@@ -32,6 +60,12 @@ impl LinkParameters {
     /// Whole cycles in a hop's time, at least one.
     pub(crate) fn cycles(&self, hop_time: Duration) -> u64 {
         (hop_time.0 / self.cycle().0).max(1)
+    }
+
+    /// Cycles from when a flit leaves a buffer until it can leave the next one, if it is not a head; at
+    /// least one.
+    pub(crate) fn flight(&self, hop_time: Duration) -> u64 {
+        self.cycles(hop_time).saturating_sub(self.stages.of_head()).max(1)
     }
 
     /// Flits of a message, at least its head.

@@ -26,7 +26,7 @@ pub use deadlock::{Deadlock, Waiting};
 pub use flit::Flit;
 pub use formula::{ContentionFree, Delivery, Formula};
 pub use ideal::Ideal;
-pub use links::LinkParameters;
+pub use links::{LinkParameters, RouterStages};
 pub use loggp::{LogGp, LogGpParameters};
 pub use message::Message;
 pub use model::{ModelChoice, NetworkModel, NetworkParameters};

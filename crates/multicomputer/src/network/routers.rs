@@ -19,6 +19,7 @@ pub(crate) struct Routers {
     channels: Channels,
     cycle: Duration,
     hop_cycles: u64,
+    flight: u64,
     /// By channel, one for each virtual channel; injections and ejections use only the first.
     lanes: Vec<Lane>,
     /// Lanes with flits in their buffers.
@@ -26,6 +27,8 @@ pub(crate) struct Routers {
     uses: Vec<Use>,
     worms: Vec<Worm>,
     idle_worms: Vec<u32>,
+    /// Until this cycle something happens although no flit moves: a stage ends, or room returns.
+    busy_until: u64,
 }
 
 /// A virtual channel and the buffer at its end.
@@ -34,10 +37,12 @@ struct Lane {
     /// The message that holds the virtual channel, and since which cycle.
     owner: Option<(u32, u64)>,
     buffer: VecDeque<FlitOfWorm>,
+    /// The cycles in which room comes back that flits have left.
+    returning: VecDeque<u64>,
     /// The cycle in which the flit at the front arrived there.
     front_since: u64,
-    /// The next lane of the message at the front.
-    onward: Option<u32>,
+    /// The next lane of the message at the front, and from which cycle its flits can leave.
+    onward: Option<(u32, u64)>,
     /// The cycle in which the buffer last sent a flit.
     served: u64,
 }
@@ -85,7 +90,7 @@ impl Worm {
 
 /// The result of a cycle.
 pub(crate) struct Step {
-    /// Whether a flit moved, or is on its way through a router.
+    /// Whether a flit moved, or something else is under way in a router.
     pub(crate) alive: bool,
     /// Messages whose last flit has left the network.
     pub(crate) out: Vec<u32>,
@@ -102,12 +107,14 @@ impl Routers {
             channels,
             cycle: links.cycle(),
             hop_cycles: links.cycles(hop_time),
+            flight: links.flight(hop_time),
             links,
             lanes: (0..lanes).map(|_| Lane::default()).collect(),
             occupied: BTreeSet::new(),
             uses: vec![Use::default(); count],
             worms: Vec::new(),
             idle_worms: Vec::new(),
+            busy_until: 0,
         }
     }
 
@@ -167,7 +174,7 @@ impl Routers {
     pub(crate) fn inject(&mut self, worm: u32, flit: u64, now: u64) -> bool {
         let Worm { flits, path, .. } = &self.worms[worm as usize];
         let (channel, lane) = (path[0].0, path[0].1.start);
-        if self.lanes[lane as usize].buffer.len() >= self.links.buffer_flits as usize {
+        if !self.has_room(lane, now) {
             return false;
         }
         let (first, last) = (flit == 0, flit + 1 == *flits);
@@ -183,6 +190,13 @@ impl Routers {
         channel.held += held;
     }
 
+    /// Whether the sender of a lane knows of room in its buffer.
+    fn has_room(&self, lane: u32, now: u64) -> bool {
+        let lane = &self.lanes[lane as usize];
+        let returning = lane.returning.iter().filter(|&&cycle| cycle > now).count();
+        lane.buffer.len() + returning < self.links.buffer_flits as usize
+    }
+
     /// A flit enters a buffer.
     fn put(&mut self, number: u32, flit: FlitOfWorm) {
         let lane = &mut self.lanes[number as usize];
@@ -190,28 +204,31 @@ impl Routers {
             lane.front_since = flit.ready;
         }
         lane.buffer.push_back(flit);
+        self.busy_until =
+            self.busy_until.max(lane.front_since.saturating_add(self.links.stages.routing));
         self.occupied.insert(number);
     }
 
     /// Simulates a cycle: allocates virtual channels to heads, then moves flits.
     pub(crate) fn step(&mut self, now: u64) -> Step {
-        let under_way = self.allocate(now);
+        self.allocate(now);
         let moves = self.choose_moves(now);
-        let alive = under_way || !moves.is_empty();
+        let alive = now < self.busy_until || !moves.is_empty();
         let out = moves.into_iter().filter_map(|lane| self.forward(lane, now)).collect();
         Step { alive, out }
     }
 
-    /// Allocates virtual channels to heads at the front of buffers. Returns whether a flit is still on
-    /// its way through a router.
-    fn allocate(&mut self, now: u64) -> bool {
-        let mut under_way = false;
+    /// Allocates virtual channels to heads at the front of buffers.
+    fn allocate(&mut self, now: u64) {
+        let stages = self.links.stages;
         let mut asking = Vec::new();
         for &number in &self.occupied {
             let lane = &self.lanes[number as usize];
             let Some(front) = lane.buffer.front() else { continue };
-            under_way |= front.ready > now;
-            if front.first && front.ready <= now && lane.onward.is_none() {
+            if front.first
+                && lane.front_since.saturating_add(stages.routing) <= now
+                && lane.onward.is_none()
+            {
                 asking.push((lane.front_since, number, *front));
             }
         }
@@ -221,12 +238,13 @@ impl Routers {
             let mut free = lanes.clone().filter(|&l| self.lanes[l as usize].owner.is_none());
             if let Some(free) = free.next() {
                 self.lanes[free as usize].owner = Some((worm, now));
-                self.lanes[lane as usize].onward = Some(free);
+                let from = now.saturating_add(stages.allocation);
+                self.lanes[lane as usize].onward = Some((free, from));
+                self.busy_until = self.busy_until.max(from);
             } else if let Some((by, _)) = self.lanes[lanes.start as usize].owner {
                 self.stall(worm, channel, by);
             }
         }
-        under_way
     }
 
     /// A message waits a cycle for another.
@@ -242,12 +260,13 @@ impl Routers {
 
     /// Chooses the buffers that send a flit, by the state before any of them does.
     fn choose_moves(&mut self, now: u64) -> Vec<u32> {
-        let room = self.links.buffer_flits as usize;
         let mut able = Vec::new();
         for &number in &self.occupied {
             let lane = &self.lanes[number as usize];
-            let Some((front, onward)) = lane.buffer.front().zip(lane.onward) else { continue };
-            if front.ready <= now && self.lanes[onward as usize].buffer.len() < room {
+            let Some((front, (onward, from))) = lane.buffer.front().zip(lane.onward) else {
+                continue;
+            };
+            if front.ready.max(from) <= now && self.has_room(onward, now) {
                 able.push((lane.served, number, onward, front.worm));
             }
         }
@@ -270,10 +289,15 @@ impl Routers {
     /// Moves the flit at the front of a buffer. Returns its message if that has left the network.
     fn forward(&mut self, number: u32, now: u64) -> Option<u32> {
         let lane = &mut self.lanes[number as usize];
-        let (flit, onward) = lane.buffer.pop_front().zip(lane.onward)?;
+        let (flit, (onward, _)) = lane.buffer.pop_front().zip(lane.onward)?;
         lane.served = now;
-        lane.front_since =
-            lane.buffer.front().map_or(0, |front| front.ready.max(now.saturating_add(1)));
+        let next = lane.buffer.front();
+        lane.front_since = next.map_or(0, |front| front.ready.max(now.saturating_add(1)));
+        let room = now.saturating_add(self.links.stages.credit);
+        lane.returning.retain(|&cycle| cycle > now);
+        lane.returning.push_back(room);
+        let asks = lane.front_since.saturating_add(self.links.stages.routing);
+        self.busy_until = self.busy_until.max(room).max(asks);
         if lane.buffer.is_empty() {
             self.occupied.remove(&number);
         }
@@ -290,7 +314,7 @@ impl Routers {
         if step as usize + 1 == self.worms[flit.worm as usize].path.len() {
             return flit.last.then_some(flit.worm);
         }
-        self.put(onward, FlitOfWorm { step, ready: now.saturating_add(self.hop_cycles), ..flit });
+        self.put(onward, FlitOfWorm { step, ready: now.saturating_add(self.flight), ..flit });
         None
     }
 
@@ -331,9 +355,9 @@ impl Routers {
         .collect()
     }
 
-    /// The time at which a cycle begins.
-    pub(crate) fn time(&self, cycle: u64) -> Time {
-        Time::ZERO + self.cycle * cycle
+    /// The time at which a cycle ends.
+    pub(crate) fn end(&self, cycle: u64) -> Time {
+        Time::ZERO + self.cycle * cycle.saturating_add(1)
     }
 
     /// The first cycle that does not begin before `time`.
