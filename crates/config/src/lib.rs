@@ -7,6 +7,7 @@ pub mod json; // strict JSON, and the line on which a value begins
 mod merge; // files that extend others, and defaults
 mod place; // where in a file
 mod quantity; // numbers with units, written as text
+mod readable; // names and numbers in messages, short ones
 mod read; // JSON values as Rust types, unknown fields refused
 pub mod schema; // schemas of these types
 
@@ -17,3 +18,4 @@ pub use merge::{fill, merge};
 pub use place::{Place, Step};
 pub use quantity::{Bandwidth, Bytes, Cycles, Frequency, Measure, Quantity, Time};
 pub use read::{read, refuse_unknown_keys};
+pub use readable::{decimal, short_name, shortened};
