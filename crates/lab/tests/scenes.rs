@@ -184,3 +184,12 @@ fn scenes_that_are_inside_out_are_warned_of() {
     );
     assert_eq!(warning(&project), None);
 }
+
+#[test]
+fn a_solution_that_stops_early_names_what_helps() {
+    let solved = |left| Solved { light: Vec::new(), left, shots: 100_000 };
+    assert_eq!(solved(0.1).warning(0.1), None);
+    let warning = solved(0.696).warning(0.1).unwrap();
+    assert!(warning.starts_with("69.6 % of the light is unshot after 100000 shots"), "{warning}");
+    assert!(warning.contains("\"patch_size\", \"clamp_reflectance\" of a scene file"), "{warning}");
+}

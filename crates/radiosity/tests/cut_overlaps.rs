@@ -45,7 +45,7 @@ fn corners_about(p: DVec2, angle: f64) -> DVec2 {
 /// Faces of one plane over a floor that all of them are on, each an object.
 fn faces() -> impl Strategy<Value = Vec<Face>> {
     let face = (outline(), 0..4_u32);
-    let floor = [[-2.0, -2.0], [6.0, -2.0], [6.0, 6.0], [-2.0, 6.0]].map(DVec2::from).to_vec();
+    let floor = [[-4.0, -4.0], [9.0, -4.0], [9.0, 9.0], [-4.0, 9.0]].map(DVec2::from).to_vec();
     let slope = prop_oneof![Just(0.0), -1.0..1.0];
     (prop::collection::vec(face, 2..=3), slope).prop_map(move |(faces, slope)| {
         let all = faces.into_iter().chain([(floor.clone(), 0)]);
@@ -80,12 +80,17 @@ fn area(face: &Face) -> f64 {
     rest.windows(2).map(|p| (p[0] - *first).cross(p[1] - *first).length() / 2.0).sum()
 }
 
-/// The object that is seen at a point, by the rule: lights first, then the smaller face.
+/// The material that is seen at a point, by the rule: lights first, then the smaller face, then the
+/// brighter one.
 fn seen(faces: &[Face], at: DVec2) -> Option<u32> {
     let materials = materials();
     let here = faces.iter().filter(|face| depth(&face.points, at) > 0.0);
-    let key = |face: &&Face| (materials[face.material as usize].emission.x == 0.0, area(face));
-    here.min_by(|a, b| key(a).partial_cmp(&key(b)).unwrap()).map(|face| face.object)
+    let key = |face: &&Face| {
+        let Material { reflectance, emission, .. } = &materials[face.material as usize];
+        // Areas of the same rectangle elsewhere differ by rounding.
+        (emission.x == 0.0, (area(face) * 1e9).round(), -emission.x, -reflectance.x)
+    };
+    here.min_by(|a, b| key(a).partial_cmp(&key(b)).unwrap()).map(|face| face.material)
 }
 
 /// The outlines of a scene and their objects, in an order of their own.
@@ -103,8 +108,6 @@ fn sorted_outlines(scene: &Scene) -> Vec<(u32, Vec<[u64; 3]>)> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(400))]
-
     /// At each point one polygon is left: the one that the rule says.
     #[test]
     fn each_point_has_one_polygon(faces in faces(), points in prop::collection::vec((0.0..4.0, 0.0..4.0), 40)) {
@@ -112,13 +115,13 @@ proptest! {
         for at in points.into_iter().map(|(x, y)| DVec2::new(x, y)) {
             let local = at - scene.origin.truncate();
             let depths: Vec<(f64, u32)> = scene.polygons.iter().map(|polygon| {
-                (depth(&scene.corners(polygon).collect::<Vec<_>>(), local), polygon.object)
+                (depth(&scene.corners(polygon).collect::<Vec<_>>(), local), polygon.material)
             }).collect();
             if depths.iter().any(|(depth, _)| depth.abs() < 1e-6) {
                 continue;
             }
             let found: Vec<u32> =
-                depths.iter().filter(|(depth, _)| *depth > 0.0).map(|(_, object)| *object).collect();
+                depths.iter().filter(|(depth, _)| *depth > 0.0).map(|(_, material)| *material).collect();
             prop_assert_eq!(found, Vec::from_iter(seen(&faces, at)), "{}", at);
         }
     }
@@ -147,7 +150,8 @@ proptest! {
         prop_assert!(more == 0.0 && again.polygons.len() == first.polygons.len(), "{}", more);
 
         let mut others = faces;
-        others.rotate_left(turn % 4 % others.len());
+        let by = turn % others.len();
+        others.rotate_left(by);
         if swap {
             others.swap(0, 1);
         }

@@ -154,8 +154,7 @@ impl Cover<'_> {
             clip_to_half(&ring, |p| inwards.dot(p - from))
         });
         // Neighbours share a strip no wider than the tolerance.
-        let [one, other] = [self.ring, other].map(|ring| Bounds::of(ring.iter().copied()));
-        let strip = one.intersection(&other).size().length() * 4.0 * self.tolerance;
+        let strip = Bounds::of(shared.iter().copied()).size().length() * 4.0 * self.tolerance;
         Some(area_and_centroid(&shared).0).filter(|&area| area > strip)
     }
 
