@@ -198,7 +198,8 @@ fn formatted(objects: &Objects, matrix: &Matrix, arguments: &Arguments) -> io::R
             format!("{:#}\n", json!({ "objects": areas, "form_factors": rows }))
         }
         Format::Text => {
-            let widest = (0..count).map(|object| short_name(objects.name(object)).chars().count()).max();
+            let widest =
+                (0..count).map(|object| short_name(objects.name(object)).chars().count()).max();
             let width = widest.unwrap_or(0).max(6) + 2;
             let head = format!("{:width$}{:width$}form factor   error estimate\n", "from", "to");
             rows.fold(head, |text, (from, to, Estimate { value, error })| {

@@ -35,7 +35,9 @@ fn write_room(folder: &Path, name: &str, order: [usize; 5]) {
     write(&format!("{name}.obj"), &(VERTICES.to_owned() + &order.map(face).concat()));
     write(
         &format!("{name}.json"),
-        &format!(r#"{{ "obj": "{name}.obj", "patch_size": "0.8 m", "emitter_patch_size": "0.4 m" }}"#),
+        &format!(
+            r#"{{ "obj": "{name}.obj", "patch_size": "0.8 m", "emitter_patch_size": "0.4 m" }}"#
+        ),
     );
     let run = r#"{ "title": "t", "scene": "SCENE.json", "machine": "paragon-xps", "processors": 2,
         "local_environments": 8, "stop": { "patch_threshold": "0.1 %" }, "reference": "dense" }"#;
@@ -94,7 +96,8 @@ fn every_method_has_one_answer() {
     let folder = folder.path();
     // In a closed room of one reflectance ρ all surfaces together send out Φ / (1 − ρ).
     let sent = EMISSION * LAMPS / (1.0 - REFLECTANCE);
-    fs::write(folder.join("m.mtl"), "newmtl white\nKd 0.5\nnewmtl lamp\nKd 0.5\nKe 10 9 8\n").unwrap();
+    fs::write(folder.join("m.mtl"), "newmtl white\nKd 0.5\nnewmtl lamp\nKd 0.5\nKe 10 9 8\n")
+        .unwrap();
     let mut pictures = Vec::new();
     for (name, order) in [("a", [0, 1, 2, 3, 4]), ("b", [4, 2, 3, 1, 0])] {
         write_room(folder, name, order);

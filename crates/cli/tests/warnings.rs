@@ -121,7 +121,8 @@ fn no_message_is_long() {
         let virtwall = &mut Command::new(env!("CARGO_BIN_EXE_virtwall"));
         let output = virtwall.current_dir(project.path("")).args(command.split(' ')).output();
         let Output { stdout, stderr, .. } = output.unwrap();
-        for line in [stdout, stderr].map(|bytes| String::from_utf8(bytes).unwrap()).concat().lines() {
+        for line in [stdout, stderr].map(|bytes| String::from_utf8(bytes).unwrap()).concat().lines()
+        {
             assert!(line.chars().count() < 1_000, "{command}: {line}");
             assert!(!line.contains("00000000000") && !line.contains("panic"), "{command}: {line}");
         }

@@ -7,8 +7,8 @@ pub mod json; // strict JSON, and the line on which a value begins
 mod merge; // files that extend others, and defaults
 mod place; // where in a file
 mod quantity; // numbers with units, written as text
-mod readable; // names and numbers in messages, short ones
 mod read; // JSON values as Rust types, unknown fields refused
+mod readable; // names and numbers in messages, short ones
 pub mod schema; // schemas of these types
 
 pub use dimension::{Dimension, parse};

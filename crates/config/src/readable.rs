@@ -50,7 +50,9 @@ mod tests {
         for name in [&long, &spaced] {
             let text = shortened(&format!("a.obj:3: material \"{name}\": expected \"it\" less"));
             assert!(text.starts_with(&format!("a.obj:3: material \"{}…", &name[..160])), "{text}");
-            assert!(text.ends_with(&format!("{}\": expected \"it\" less", &name[name.len() - 64..])));
+            assert!(
+                text.ends_with(&format!("{}\": expected \"it\" less", &name[name.len() - 64..]))
+            );
         }
         let text = shortened(&format!("a.json: {long}: expected a number"));
         assert!(text.starts_with("a.json: xxx") && text.ends_with("xxx: expected a number"));

@@ -5,7 +5,7 @@
 mod common;
 
 use common::Project;
-use lab::{Checked, OpenScene, check};
+use lab::{Checked, OpenScene, Solved, check};
 use radiosity::Rgb;
 use radiosity::glam::DVec3;
 

@@ -21,7 +21,9 @@ fn materials() -> Vec<Material> {
 fn outline() -> impl Strategy<Value = Vec<DVec2>> {
     let number = || 0.5..3.5;
     let level = (number(), number(), 0.3..2.0, 0.3..2.0).prop_map(|(x, y, w, h)| {
-        [[0.0, 0.0], [w, 0.0], [w, h], [0.0, h]].map(|at| DVec2::new(x, y) + DVec2::from(at)).to_vec()
+        [[0.0, 0.0], [w, 0.0], [w, h], [0.0, h]]
+            .map(|at| DVec2::new(x, y) + DVec2::from(at))
+            .to_vec()
     });
     let turned = (level.clone(), 0.0..1.5).prop_map(|(corners, angle)| {
         corners.into_iter().map(|p| corners_about(p, angle)).collect()

@@ -63,8 +63,7 @@ fn form_factors_close(scene: Scene) -> Result<(), TestCaseError> {
     let rays = ObjectRays::new(&objects, &space, RAYS, 1996).unwrap();
     let by_rays: Vec<Vec<Estimate>> = all.clone().map(|from| rays.from(from)).collect();
     for from in all.clone() {
-        let exact: Vec<Estimate> =
-            all.clone().map(|to| objects.exact(from, to, 1e-5)[0]).collect();
+        let exact: Vec<Estimate> = all.clone().map(|to| objects.exact(from, to, 1e-5)[0]).collect();
         let error: f64 = exact.iter().map(|one| one.error).sum();
         prop_assert!((sum(&exact) - 1.0).abs() <= error, "{from} {exact:?}");
         prop_assert!((sum(&by_rays[from]) - 1.0).abs() < 1e-12, "{from} {by_rays:?}");
