@@ -29,7 +29,7 @@ pub fn short_name(text: &str) -> String {
     format!("{first}…{last}")
 }
 
-/// A number with so many decimals, or with an exponent if it is large.
+/// A number with this number of decimals, or with an exponent if it is large.
 pub fn decimal(number: f64, decimals: usize) -> String {
     if number.abs() >= LARGE && number.is_finite() {
         format!("{number:.decimals$e}")
