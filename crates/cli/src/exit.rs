@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::error::Error;
 use std::io::{self, Write};
 
-use config::Fault;
+use config::{Fault, shortened};
 
 /// How a command failed.
 pub struct Exit {
@@ -45,6 +45,7 @@ pub fn print_warnings<'a>(warnings: impl IntoIterator<Item = &'a String>) {
     }
 }
 
+/// Prints a line to standard error, with long names shortened.
 pub fn print_note(line: &str) {
-    let _ = writeln!(io::stderr().lock(), "{line}");
+    let _ = writeln!(io::stderr().lock(), "{}", shortened(line));
 }

@@ -4,6 +4,7 @@ use std::io;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use config::short_name;
 use lab::{OpenScene, Table};
 use radiosity::{Scene, Space};
 use reference::{Estimate, ObjectRays, Objects};
@@ -198,10 +199,12 @@ fn formatted(objects: &Objects, matrix: &Matrix, arguments: &Arguments) -> io::R
             format!("{:#}\n", json!({ "objects": areas, "form_factors": rows }))
         }
         Format::Text => {
-            let widest = (0..count).map(|object| objects.name(object).chars().count()).max();
+            let widest =
+                (0..count).map(|object| short_name(objects.name(object)).chars().count()).max();
             let width = widest.unwrap_or(0).max(6) + 2;
             let head = format!("{:width$}{:width$}form factor   error estimate\n", "from", "to");
             rows.fold(head, |text, (from, to, Estimate { value, error })| {
+                let [from, to] = [from, to].map(short_name);
                 text + &format!("{from:width$}{to:width$}{value:<12.10}  {error:.1e}\n")
             })
         }

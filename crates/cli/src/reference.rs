@@ -93,6 +93,10 @@ struct Partial {
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let open = OpenScene::load(&arguments.scene)?.without_media()?;
     print_warnings(open.all_warnings());
+    let refuse = |error: NoReference| Exit::bad_input(format!("{}: {error}", arguments.scene));
+    if !open.scene.may_reflect_light() {
+        return Err(refuse(NoReference::Dark));
+    }
     let (space, environment) = meshed(&open);
     let patches = Patches::new(&space, &environment);
     let threads = arguments.threads.count();
@@ -117,7 +121,6 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         Method::Dense { tolerance } => meshed.dense(subject, tolerance),
         Method::Paths { .. } => meshed.paths(subject, &partial)?,
     };
-    let refuse = |error: NoReference| Exit::bad_input(format!("{}: {error}", arguments.scene));
     let found = found.map_err(refuse)?;
     let text = match arguments.format {
         Format::Json => serde_json::to_string(&found).map_err(Exit::failure)? + "\n",

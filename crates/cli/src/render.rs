@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use config::{Dimension, parse};
+use config::{Dimension, decimal, parse, short_name};
 use desim::Time;
 use lab::{Light, Solved, Stage, Which};
 use radiosity::glam::DVec3;
@@ -148,7 +148,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         (Some(frames), Some(output)) => renderer.animation(*frames, output)?,
         _ => renderer.still()?,
     };
-    let text = format!("{}\n{drawn}", stage.title);
+    let text = format!("{}\n{drawn}", short_name(&stage.title));
     Ok(if arguments.output.is_some() {
         text + &format!("{width} x {height} pixels\n")
     } else {
@@ -202,7 +202,7 @@ impl Renderer<'_> {
             exposure = Exposure::MiddleGrey(middle_grey);
         }
         let Exposure::MiddleGrey(radiosity) = exposure else { return Ok(when) };
-        Ok(format!("{when}; middle grey is {radiosity:.4} W/m²\n"))
+        Ok(format!("{when}; middle grey is {} W/m²\n", decimal(radiosity, 4)))
     }
 
     /// Numbered pictures, all with the exposure of the last one.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
-use config::{Dimension, parse};
+use config::{Dimension, parse, short_name};
 use lab::{
     Claim, Endings, FileKind, HostClock, On, Options, Plan, Preparing, Results, ShotFiles, Traces,
     Viewing, check_writable, difference, find_here, folder_for,
@@ -207,7 +207,7 @@ fn network(arguments: &Arguments) -> Result<Option<String>, Exit> {
 
 fn output(plan: &Plan, results: &Results, endings: &Endings) -> String {
     let networks = lab::networks_text(plan, endings);
-    let mut output = format!("{}\n{}\n{networks}", plan.title, results.text());
+    let mut output = format!("{}\n{}\n{networks}", short_name(&plan.title), results.text());
     output.extend(plan.settings_found().iter().map(|found| format!("{found}\n")));
     output + &shots(endings)
 }

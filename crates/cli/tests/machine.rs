@@ -296,8 +296,8 @@ fn what_the_display_and_the_start_up_do_stands_in_the_results() {
     project.write("machines/paragon-display.json", &machine);
     let run = |settings: &[&str]| {
         let settings = settings.iter().flat_map(|setting| ["--set", setting]);
-        let arguments: Vec<&str> =
-            ["run", "experiments/x.json"].into_iter().chain(settings).collect();
+        let command = ["run", "experiments/x.json", "--out", "results/x", "--replace"];
+        let arguments: Vec<&str> = command.into_iter().chain(settings).collect();
         virtwall(&project.path(""), &arguments)
     };
     assert_eq!(run(&[]).0, 0);

@@ -23,7 +23,7 @@ fn virtwall(project: &Project, arguments: &[&str]) -> (i32, String) {
 
 /// Runs the project's experiment and says where its results are.
 fn run(project: &Project, out: &str, more: &[&str]) {
-    let arguments = [&["run", "experiments/x.json", "--out", out], more].concat();
+    let arguments = [&["run", "experiments/x.json", "--out", out, "--replace"], more].concat();
     assert_eq!(virtwall(project, &arguments), (0, String::new()), "{arguments:?}");
 }
 

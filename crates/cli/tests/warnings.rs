@@ -63,6 +63,72 @@ fn a_run_without_light_says_so() {
     assert_eq!(stderr, "", "light does not matter for form factors");
 }
 
+/// Without light nothing is computed, so that nothing is sped up; and what a run would be compared with
+/// is refused before the run.
+#[test]
+fn a_run_without_light_has_no_speed_up() {
+    let project = Project::new(common::SWEEP);
+    project.write("scenes/box.mtl", "newmtl wall\nKd 0.5\nnewmtl lamp\nKd 0.5\n");
+    let (stdout, _) = virtwall(&project, "run experiments/x.json --out r");
+    let csv = fs::read_to_string(project.path("r/runs.csv")).unwrap();
+    let cells = |row: &str| row.split(',').map(str::to_owned).collect::<Vec<_>>();
+    let header = cells(csv.lines().next().unwrap());
+    for name in ["speed_up", "efficiency"] {
+        let Some(place) = header.iter().position(|column| column == name) else { continue };
+        assert!(csv.lines().skip(1).all(|row| cells(row)[place].is_empty()), "{name}: {csv}");
+    }
+    assert!(!stdout.contains("1.00"), "{stdout}");
+    let command = &mut Command::new(env!("CARGO_BIN_EXE_virtwall"));
+    let arguments = ["run", "experiments/x.json", "--set", "reference=dense", "--out", "q"];
+    let output = command.current_dir(project.path("")).args(arguments).output().unwrap();
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{stderr}");
+    assert!(stderr.contains("the reference is dark: no light is reflected"), "{stderr}");
+    assert!(!project.path("q").exists());
+}
+
+/// Light that falls on nothing that reflects is found by the solution, before the run.
+#[test]
+fn a_lamp_that_lights_nothing_has_no_reference() {
+    let project = Project::new(EXPERIMENT);
+    // The walls absorb all; what reflects is the lamp, which does not see itself.
+    project.write("scenes/box.mtl", "newmtl wall\nKd 0 0 0\nnewmtl lamp\nKd 0.5\nKe 9 9 9\n");
+    let command = &mut Command::new(env!("CARGO_BIN_EXE_virtwall"));
+    let arguments = ["run", "experiments/x.json", "--set", "reference=dense", "--out", "q"];
+    let output = command.current_dir(project.path("")).args(arguments).output().unwrap();
+    let stdout = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{stdout}");
+    assert!(stdout.contains("failed: the reference is dark"), "{stdout}");
+    assert!(stdout.contains("Shots: 0 asked for"), "{stdout}");
+}
+
+/// Names are shortened in messages and tables, whatever their length, and numbers have exponents.
+#[test]
+fn no_message_is_long() {
+    let project = Project::new(EXPERIMENT);
+    let long = "x".repeat(200_000);
+    let obj = fs::read_to_string(project.path("scenes/box.obj")).unwrap();
+    let named = obj.replacen("usemtl wall", &format!("o {long}\nusemtl {long}"), 1);
+    project.write("long.obj", &named);
+    project.write("far.obj", &obj.replacen("v 4 ", "v 1e308 ", 1));
+    project.write("field.json", &format!(r#"{{ "obj": "scenes/box.obj", "{long}": 1 }}"#));
+    for command in [
+        "check long.obj far.obj field.json",
+        "scene show long.obj",
+        "formfactors long.obj --method rays --rays 64",
+        "render box -o a.png --size 30x20 --exposure 1e300",
+    ] {
+        let virtwall = &mut Command::new(env!("CARGO_BIN_EXE_virtwall"));
+        let output = virtwall.current_dir(project.path("")).args(command.split(' ')).output();
+        let Output { stdout, stderr, .. } = output.unwrap();
+        for line in [stdout, stderr].map(|bytes| String::from_utf8(bytes).unwrap()).concat().lines()
+        {
+            assert!(line.chars().count() < 1_000, "{command}: {line}");
+            assert!(!line.contains("00000000000") && !line.contains("panic"), "{command}: {line}");
+        }
+    }
+}
+
 /// A scene whose y points up is drawn and exported as its twin whose z does.
 #[test]
 fn pictures_follow_what_is_up() {

@@ -3,6 +3,7 @@
 use std::fmt::{self, Write};
 
 use crate::place::Place;
+use crate::readable::shortened;
 
 /// Why an input is refused. Its text is one message, complete in itself.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -45,7 +46,7 @@ impl fmt::Display for Fault {
         let parts = [self.file.clone() + &line + &column, place, self.message.clone()];
         let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
         // Names and values from files may have line ends or control codes of a terminal.
-        parts.join(": ").chars().try_for_each(|c| match c.is_control() {
+        shortened(&parts.join(": ")).chars().try_for_each(|c| match c.is_control() {
             true => write!(f, "{}", c.escape_default()),
             false => f.write_char(c),
         })

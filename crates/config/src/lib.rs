@@ -9,6 +9,7 @@ mod merge; // files that extend others, and defaults
 mod place; // where in a file
 mod quantity; // numbers with units, written as text
 mod read; // JSON values as Rust types, unknown fields refused
+mod readable; // names and numbers in messages, short ones
 pub mod schema; // schemas of these types
 
 pub use dimension::{Dimension, parse};
@@ -19,3 +20,4 @@ pub use merge::{fill, merge};
 pub use place::{Place, Step};
 pub use quantity::{Bandwidth, Bytes, Cycles, Frequency, Measure, Quantity, Time};
 pub use read::{read, refuse_unknown_keys};
+pub use readable::{decimal, short_name, shortened};

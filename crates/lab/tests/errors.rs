@@ -81,14 +81,27 @@ fn errors_are_told_and_taken_apart() {
     }
 }
 
+/// An experiment that is compared with a dense solution of a scene that emits or reflects nothing is refused.
+#[test]
+fn a_scene_without_light_has_no_answer() {
+    let project = project(|_| ());
+    project.write("experiments/x.json", &experiment(r#", "reference": "dense""#));
+    for materials in ["newmtl wall\nKd 0 0 0\nnewmtl lamp\nKd 0 0 0\nKe 9 9 9\n", "newmtl wall\n"] {
+        project.write("scenes/box.mtl", materials);
+        let plan = Plan::read(&project.path("experiments/x.json"), &[], &Preparing::default());
+        let message = plan.err().unwrap().to_string();
+        assert!(message.contains("reference: the reference is dark"), "{message}");
+    }
+}
+
 /// A run that is compared with a dense solution without light fails: its error is not 0.
 #[test]
 fn an_error_relative_to_no_light_is_an_error() {
     let project = project(|_| ());
     project.write("experiments/x.json", &experiment(r#", "reference": "dense""#));
-    let path = project.path("scenes/box.mtl");
-    let text = fs::read_to_string(&path).unwrap();
-    fs::write(&path, text.replace("Kd 0.5 0.5 0.5", "Kd 0 0 0")).unwrap();
+    // Only the lamp reflects, and nothing sends light back to it.
+    let materials = "newmtl wall\nKd 0 0 0\nnewmtl lamp\nKd 0.5 0.5 0.5\nKe 9 9 9\n";
+    project.write("scenes/box.mtl", materials);
     let plan = Plan::read(&project.path("experiments/x.json"), &[], &Preparing::default()).unwrap();
     let options = Options { fresh: true, memory: 1 << 28, ..options(1) };
     let endings = carry_out(&plan, &project.path("out"), &options, Arc::new(|_| {})).unwrap();

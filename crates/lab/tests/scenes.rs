@@ -5,7 +5,7 @@
 mod common;
 
 use common::Project;
-use lab::{Checked, OpenScene, check};
+use lab::{Checked, OpenScene, Solved, check};
 use radiosity::Rgb;
 use radiosity::glam::DVec3;
 
@@ -183,4 +183,13 @@ fn scenes_that_are_inside_out_are_warned_of() {
         &MATERIALS.replace("\nnewmtl lamp", "\nvirtwall_two_sided 1\nnewmtl lamp"),
     );
     assert_eq!(warning(&project), None);
+}
+
+#[test]
+fn a_solution_that_stops_early_names_what_helps() {
+    let solved = |left| Solved { light: Vec::new(), left, shots: 100_000 };
+    assert_eq!(solved(0.1).warning(0.1), None);
+    let warning = solved(0.696).warning(0.1).unwrap();
+    assert!(warning.starts_with("69.6 % of the light is unshot after 100000 shots"), "{warning}");
+    assert!(warning.contains("\"patch_size\", \"clamp_reflectance\" of a scene file"), "{warning}");
 }

@@ -110,7 +110,7 @@ fn rows_of_a_closed_room_sum_to_one() {
     }
 }
 
-/// Where two polygons of one plane overlap, only the first counts, as for rays.
+/// Where two polygons of one plane overlap, one of them counts, as for rays.
 #[test]
 fn covered_parts_do_not_count() {
     let square = |low: f64, high: f64, z: f64| {

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use config::{decimal, short_name};
 use lab::{OpenScene, Solved, Stage, Which};
 use radiosity::glam::DVec3;
 use radiosity::{
@@ -67,19 +68,19 @@ pub fn meshed(open: &OpenScene) -> (Space, LocalEnvironment) {
 
 fn numbers(open: &OpenScene, whole: &LocalEnvironment) -> String {
     let scene = &open.scene;
-    let world = |local: Rgb| (local + scene.origin).to_array().map(|c| format!("{c:.2}")).join(" ");
-    let power = scene.emitted_power().to_array().map(|watts| format!("{watts:.1}")).join(" ");
+    let world = |local: Rgb| (local + scene.origin).to_array().map(|c| decimal(c, 2)).join(" ");
+    let power = scene.emitted_power().to_array().map(|watts| decimal(watts, 1)).join(" ");
     let lights = scene.polygons.iter().filter(|p| scene.material(p).emission != Rgb::ZERO).count();
     let [x, y, z] = open.cells;
     let mut text = String::new();
     let mut line = |name: &str, value: String| text += &format!("{name:<16}{value}\n");
-    open.title.iter().for_each(|title| line("title", title.clone()));
+    open.title.iter().for_each(|title| line("title", short_name(title)));
     line("polygons", format!("{}, {lights} of them lights", scene.polygons.len()));
     line("vertices", scene.vertices.len().to_string());
     line("materials", scene.materials.len().to_string());
     line("objects", scene.objects.len().to_string());
     line("bounds", format!("{} to {} m", world(scene.bounds.min), world(scene.bounds.max)));
-    line("area", format!("{:.1} m²", scene.area()));
+    line("area", format!("{} m²", decimal(scene.area(), 1)));
     line("emitted power", format!("{power} W (red, green, blue)"));
     line(
         "patch size",

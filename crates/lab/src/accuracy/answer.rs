@@ -41,8 +41,13 @@ impl Answer {
     pub fn check(&self) -> Result<(), String> {
         let Answer { patches, radiosity, .. } = self;
         let light = Difference::between(patches, radiosity, radiosity, radiosity);
-        light.map(|_| ()).ok_or_else(|| format!("the reference is dark: {}", NoReference::Dark))
+        light.map(|_| ()).ok_or_else(dark)
     }
+}
+
+/// Why a solution without reflected light is no answer.
+pub fn dark() -> String {
+    format!("the reference is dark: {}", NoReference::Dark)
 }
 
 pub struct Stored {
@@ -113,7 +118,7 @@ fn dense(problem: &Problem, patches: Patches) -> Answer {
     let dense = Dense::new(scene, patches, TOLERANCE, parallel::host_threads(), || ());
     let solution = dense.solve();
     let patches = dense.patches().clone();
-    // A dark answer is refused where a run is compared with it.
+    // A dark answer is refused before a run is compared with it.
     let error = solution.relative_l2_error(&patches).unwrap_or(f64::INFINITY);
     Answer { radiosity: solution.radiosity, patches, error }
 }

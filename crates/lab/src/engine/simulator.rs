@@ -151,7 +151,7 @@ impl Solved {
             let expected = format!("expected at most {unshot:.1} %");
             format!(
                 "{left:.1} % of the light is unshot after {shots} shots; {expected}: larger patches \
-                 (\"patch_size\" of a scene file) need fewer shots"
+                 or darker surfaces (\"patch_size\", \"clamp_reflectance\" of a scene file) need fewer shots"
             )
         })
     }

@@ -181,7 +181,8 @@ impl<'a> Planner<'a> {
             return Err(refuse(message));
         }
         if name == answer::DENSE {
-            return Ok(None);
+            let lit = scene.geometry.may_reflect_light();
+            return if lit { Ok(None) } else { Err(refuse(answer::dark())) };
         }
         let stem = || self.scenes[draft.scene].path.file_stem().unwrap_or_default();
         let name =

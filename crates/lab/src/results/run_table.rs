@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use radiosity::Rgb;
+
 use crate::experiment::fields::Experiment;
 use crate::experiment::machine::NETWORK_MODEL;
 use crate::experiment::sweep::in_words;
@@ -23,9 +25,11 @@ pub fn run_table(plan: &Plan, endings: &Endings) -> Table {
     let finest = networks::finest(plan, endings);
     let row = |(run, ending): (&Run, &Option<Ending>)| -> Vec<String> {
         let time_s = time(ending);
+        // Without light there is no work to share.
+        let lit = plan.problems[run.problem].problem.emitted_power() != Rgb::ZERO;
         let over = |times: &Times, field: &str| {
             let (one, time_s) = (times.get(&all_else(plan, run, field))?, time_s?);
-            (time_s > 0.0).then_some(one / time_s)
+            (lit && time_s > 0.0).then_some(one / time_s)
         };
         let difference = |(_, finest): &(_, f64)| {
             Some((time_s? - finest) / finest).filter(|share| share.is_finite())

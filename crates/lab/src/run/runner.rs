@@ -180,8 +180,12 @@ impl Shared<'_> {
             let Some(task) = held(&self.queue).take(|problem| self.kept_shots(problem)) else {
                 return;
             };
+            let answer = self.check_answer(&task);
             let clock = HostClock::start();
-            let (ended, traced) = self.run(&task);
+            let (ended, traced) = match answer {
+                Ok(()) => self.run(&task),
+                Err(message) => (Err(message), Ok(())),
+            };
             let host = HostTimes {
                 cpu_s: clock.cpu_seconds(),
                 set_up_s: self.plan.problems[task.problem].set_up_s,
@@ -225,6 +229,12 @@ impl Shared<'_> {
         let (shots, shot_bytes) = (held(&self.queue).counts(), self.memory.most());
         let endings = self.endings.into_inner().unwrap_or_else(PoisonError::into_inner);
         Endings { shots, shot_bytes, dense: self.dense, ..endings }
+    }
+
+    /// Checks that what a run is compared with is not dark.
+    fn check_answer(&self, task: &Task) -> Result<(), String> {
+        let answer = self.plan.answer(&self.plan.runs[task.run], &self.dense);
+        answer.map_or(Ok(()), |answer| answer.check())
     }
 
     /// The error of a run against its answer, if there is one. Its host time does not count as the run's.

@@ -57,6 +57,27 @@ pub(crate) fn clip_to_half(points: &[DVec3], height: impl Fn(DVec3) -> f64) -> V
     clip(points, height, |p| p)
 }
 
+/// The two parts of a convex polygon left and right of the line through an edge of its plane, seen from the
+/// front. Corners within `tolerance` of the line count as on it. New corners are exactly on it if it is
+/// parallel to an axis. A part without corners off the line is empty.
+pub(crate) fn cut_by_edge(
+    points: &[DVec3],
+    [from, to]: [DVec3; 2],
+    normal: DVec3,
+    tolerance: f64,
+) -> [Vec<DVec3>; 2] {
+    let inwards = normal.cross(to - from).normalize_or_zero();
+    let height = |p: DVec3| {
+        let height = inwards.dot(p - from);
+        if height.abs() <= tolerance { 0.0 } else { height }
+    };
+    let onto = |p: DVec3| DVec3::select(from.cmpeq(to), from, p);
+    [1.0, -1.0].map(|side| {
+        let beyond = points.iter().any(|&p| side * height(p) > 0.0);
+        if beyond { clip(points, |p| side * height(p), onto) } else { Vec::new() }
+    })
+}
+
 /// Area (m²) and centroid of a convex planar polygon. Without an area, the mean of its points.
 pub(crate) fn area_and_centroid(points: &[DVec3]) -> (f64, DVec3) {
     let mean = points.iter().sum::<DVec3>() / points.len().max(1) as f64;

@@ -10,7 +10,7 @@ mod split; // how boxes are split into groups for the tree
 
 pub use bounds::Bounds;
 pub(crate) use box_tree::{BoxTree, VisitStack};
-pub(crate) use clip::{area_and_centroid, clip_to_box, clip_to_half, clip_to_slab};
+pub(crate) use clip::{area_and_centroid, clip_to_box, clip_to_half, clip_to_slab, cut_by_edge};
 pub(crate) use pairs::visit_pairs;
 pub(crate) use pyramid::Pyramid;
 pub use ray::Ray;

@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use super::coplanar::share_planes;
 use super::error::{FARTHEST, SceneError};
-use super::overlaps::{order, sort_overlaps};
+use super::overlaps::{cut_overlaps, order};
 use super::scene::{Face, Material, Plane, Polygon, Rgb, Scene};
 use super::warnings::{WarningKind, Warnings};
 use crate::geometry::Bounds;
@@ -25,7 +25,7 @@ impl Scene {
     /// divided into triangles. Faces without area, and faces with the same corners and front as an
     /// other one, are dropped. A face of a two-sided material is stored twice, back to back.
     /// Polygons in the same plane share it to the bit. Of those that face the same way and overlap,
-    /// the one that is seen has the lower number, whatever the order of the faces.
+    /// one is seen, whatever the order of the faces; what it covers is cut out of the others.
     ///
     /// # Errors
     /// An impossible material, a coordinate that is not finite or beyond 1e12 m, an index out of
@@ -39,7 +39,7 @@ impl Scene {
         let world = Bounds::of(faces.iter().flat_map(|f| f.points.iter().copied()));
         let origin = (world.min + world.max) * 0.5;
         let tolerance = 1e-9 * world.size().length();
-        let (welded, corners) = weld(faces, origin, tolerance);
+        let (mut welded, corners) = weld(faces, origin, tolerance);
 
         let mut cleaner = Cleaner {
             vertices: &welded,
@@ -62,15 +62,15 @@ impl Scene {
             let found = format!("no surface: {} faces, none with an area", faces.len());
             return Err(SceneError::Invalid(format!("{found}; expected at least one")));
         }
-        check_absorption(&polygons, &materials)?;
         share_planes(&mut polygons, tolerance);
-        let vertices = keep_used(&welded, &mut polygons);
-        for overlap in sort_overlaps(&mut polygons, &vertices, &materials, tolerance) {
+        for overlap in cut_overlaps(&mut polygons, &mut welded, &materials, tolerance) {
             warnings.add_area(WarningKind::Overlap, overlap.area, || {
-                let name = |polygon: u32| &objects[polygons[polygon as usize].object as usize];
+                let name = |object: u32| &objects[object as usize];
                 format!("\"{}\" over \"{}\"", name(overlap.front), name(overlap.covered))
             });
         }
+        check_absorption(&polygons, &materials)?;
+        let vertices = keep_used(&welded, &mut polygons);
         let bounds = Bounds::of(vertices.iter().copied());
         let (up, media) = (DVec3::Z, Vec::new());
         let scene = Scene { vertices, polygons, materials, objects, origin, bounds, up, media };

@@ -37,8 +37,8 @@ pub enum SceneError {
     Invalid(String),
     /// A coordinate is not finite or too large.
     #[error(
-        "{place}: corner at ({}, {}, {}); expected finite coordinates of at most {FARTHEST:e} m",
-        at.x, at.y, at.z
+        "{place}: corner at {}; expected finite coordinates of at most {FARTHEST:e} m",
+        values(*at)
     )]
     Corner {
         /// Object and number of the face.
@@ -81,7 +81,7 @@ impl Material {
 /// Three numbers as a message shows them: very large and very small ones with an exponent.
 pub(crate) fn values(rgb: Rgb) -> String {
     let text = |value: f64| match value.abs() {
-        size if size.is_finite() && size != 0.0 && !(1e-6..1e9).contains(&size) => {
+        size if size.is_finite() && size != 0.0 && !(1e-6..1e7).contains(&size) => {
             format!("{value:e}")
         }
         _ => value.to_string(),

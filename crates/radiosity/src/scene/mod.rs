@@ -5,7 +5,7 @@ mod coplanar; // one plane, equal to the bit, for polygons that share a plane
 mod error; // why files or faces do not make a scene
 mod mtl; // material files
 mod obj; // Wavefront OBJ files
-mod overlaps; // overlapping polygons of one plane: which of them is seen
+mod overlaps; // overlapping polygons of one plane: covered parts are cut away
 mod scene; // materials, planes, polygons, scenes
 mod text; // text files, and lines in them
 mod warnings; // what cleaning dropped, changed or replaced

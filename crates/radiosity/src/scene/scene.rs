@@ -127,6 +127,14 @@ impl Scene {
         self.polygons.iter().map(|p| self.material(p).emission * p.area).sum()
     }
 
+    /// Whether a polygon emits light and one reflects light.
+    pub fn may_reflect_light(&self) -> bool {
+        let any = |colour: fn(&Material) -> Rgb| {
+            self.polygons.iter().any(|polygon| colour(self.material(polygon)) != Rgb::ZERO)
+        };
+        any(|material| material.emission) && any(|material| material.reflectance)
+    }
+
     /// Positions closer than this count as equal: 1e-9 of the diagonal of the scene, metres.
     pub fn tolerance(&self) -> f64 {
         1e-9 * self.bounds.size().length()

@@ -91,9 +91,16 @@ impl<'a> Objects<'a> {
             object.faces.iter().map(|&face| Surface::of_polygon(self.scene, face)).collect()
         };
         let (sources, targets) = (surfaces(from), surfaces(to));
+        // Over the smaller one: edges of the larger one that meet it are met along a part only, where the
+        // integrand jumps.
+        let area = |surface: &Surface| self.scene.polygons[surface.polygon as usize].area;
+        let pair = |one, other| {
+            let (from, to) = if area(one) > area(other) { (other, one) } else { (one, other) };
+            Pair::new(self.scene, from, to)
+        };
         let pairs: Vec<Pair> = sources
             .iter()
-            .flat_map(|from| targets.iter().filter_map(|to| Pair::new(self.scene, from, to)))
+            .flat_map(|one| targets.iter().filter_map(move |other| pair(one, other)))
             .collect();
         let parts = pairs.iter().enumerate().flat_map(|(i, pair)| pair.parts(i));
         let absolute = tolerance * from.area.min(to.area);

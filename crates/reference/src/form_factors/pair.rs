@@ -21,12 +21,11 @@ pub struct Surface {
 /// Two surfaces, prepared for integration over the first: each without the part behind the other, and the
 /// polygons that may block light between them.
 ///
-/// As for rays, a polygon is opaque from both sides. Where polygons of one plane that face the same
-/// way overlap, only the first of them counts.
+/// As for rays, a polygon is opaque from both sides.
 pub struct Pair {
-    from: Vec<Ring>,
+    from: Ring,
     normal: DVec3,
-    to: Vec<Ring>,
+    to: Ring,
     /// The largest first, since it may hide everything.
     blockers: Vec<Blocker>,
 }
@@ -49,36 +48,21 @@ impl Surface {
         height(&self.plane, point)
     }
 
-    /// The parts that are in front of another surface and not covered by an earlier polygon.
-    fn in_front_of(&self, other: &Surface, scene: &Scene) -> Vec<Ring> {
-        let tolerance = scene.tolerance();
-        if !self.corners.iter().any(|&p| other.height(p) > tolerance) {
-            return Vec::new();
-        }
-        let mut parts = vec![above(&self.corners, |p| other.height(p))];
-        for cover in &scene.polygons[..self.polygon as usize] {
-            let alike = cover.plane.normal.dot(self.plane.normal) > 0.0
-                && scene.corners(cover).all(|p| self.height(p).abs() <= tolerance);
-            if alike {
-                // Any point in front of them can be the eye.
-                let eye = self.corners[0] + self.plane.normal;
-                let cover = seen_from(eye, &scene.corners(cover).collect::<Ring>());
-                let seen = parts.iter().map(|part| seen_from(eye, part)).collect();
-                let left = cut_out(seen, &cover, &sides(&cover));
-                parts = left.iter().map(|part| seen_from(-eye, part)).collect();
-            }
-        }
-        parts
+    /// The part that is in front of another surface.
+    fn in_front_of(&self, other: &Surface, tolerance: f64) -> Option<Ring> {
+        let faces = self.corners.iter().any(|&p| other.height(p) > tolerance);
+        faces.then(|| above(&self.corners, |p| other.height(p)))
     }
 }
 
 impl Pair {
     /// Two surfaces of a scene; `None` if they do not face each other.
     pub fn new(scene: &Scene, from: &Surface, to: &Surface) -> Option<Pair> {
-        let (source, target) = (from.in_front_of(to, scene), to.in_front_of(from, scene));
-        if from.polygon == to.polygon || source.is_empty() || target.is_empty() {
+        if from.polygon == to.polygon {
             return None;
         }
+        let tolerance = scene.tolerance();
+        let (source, target) = (from.in_front_of(to, tolerance)?, to.in_front_of(from, tolerance)?);
         let between = |polygon: &u32| *polygon != from.polygon && *polygon != to.polygon;
         let blocker = |polygon| Blocker::new(scene, polygon, from, to);
         let mut blockers: Vec<Blocker> =
@@ -90,8 +74,7 @@ impl Pair {
     /// The form factor from an element of the first surface to the visible part of the second, exact to
     /// rounding: the shadows of all blockers are cut out.
     pub fn from_element(&self, point: DVec3) -> f64 {
-        let seen = |ring: &Ring| seen_from(point, ring);
-        let mut pieces: Vec<Ring> = self.to.iter().map(seen).collect();
+        let mut pieces = vec![seen_from(point, &self.to)];
         for blocker in &self.blockers {
             if pieces.is_empty() {
                 return 0.0;
@@ -105,7 +88,7 @@ impl Pair {
     pub(crate) fn parts(&self, function: usize) -> Vec<Part> {
         let smooth = self.blockers.is_empty();
         let part = |triangle| Part { triangle, function, smooth };
-        let triangles = self.from.iter().flat_map(|ring| fan(ring));
+        let triangles = fan(&self.from);
         if smooth {
             triangles.map(part).collect()
         } else {

@@ -71,7 +71,10 @@ pub fn ours(problem: &Problem, source: &Emitter, ray: &Ray) -> Option<f64> {
     follow(problem, source, ray).map(|(_, distance)| distance)
 }
 
-/// Of the rays that meet several polygons of one plane at once, those that end on another polygon than the
+/// How often rays end on each polygon, by the polygons that they meet at once.
+type Ends = BTreeMap<Vec<(u32, bool)>, BTreeMap<Option<u32>, u64>>;
+
+/// Of the rays that meet several polygons of one plane at once from one side, those that end on another polygon than the
 /// majority.
 pub fn torn(
     runs: &CaseRuns,
@@ -81,7 +84,7 @@ pub fn torn(
     let mut count = Count::default();
     for run in &runs.list {
         let problem = &*run.problem;
-        let mut ends: BTreeMap<Vec<u32>, BTreeMap<Option<u32>, u64>> = BTreeMap::new();
+        let mut ends: Ends = BTreeMap::new();
         for source in sources(runs, run, most) {
             for ray in rays(runs, problem, &source) {
                 let met = met_at_once(problem, &source, &ray);
@@ -99,14 +102,16 @@ pub fn torn(
     count
 }
 
-/// The polygons whose fronts a ray meets first, all at one distance within the tolerance.
-fn met_at_once(problem: &Problem, source: &Emitter, ray: &Ray) -> Vec<u32> {
+/// The polygons that a ray meets first, all at one distance within the tolerance; and whether it meets their
+/// fronts.
+fn met_at_once(problem: &Problem, source: &Emitter, ray: &Ray) -> Vec<(u32, bool)> {
     let facets = &problem.space.facets;
     let Some(first) = nearest(problem, source, ray) else { return Vec::new() };
     let reach = first + problem.space.scene.tolerance();
     let polygons = 0..problem.space.scene.polygons.len() as u32;
-    let others = polygons.filter(|&p| p != source.polygon && facets.faces(p, ray));
-    others.filter(|&p| facets.hit(p, ray, reach).is_some()).collect()
+    let others = polygons.filter(|&p| p != source.polygon);
+    let met = others.filter(|&p| facets.hit(p, ray, reach).is_some());
+    met.map(|p| (p, facets.faces(p, ray))).collect()
 }
 
 /// The polygon on which this program ends a ray.
