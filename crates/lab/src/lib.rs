@@ -35,6 +35,7 @@ pub use planning::preparing::Preparing;
 pub use results::folder::{Results, write_host_times};
 pub use results::live_page::live_page;
 pub use results::networks::text as networks_text;
+pub use results::waste::waste;
 pub use run::claim::Claim;
 pub use run::feed::{Feed, News};
 pub use run::progress::Counters;

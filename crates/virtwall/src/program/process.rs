@@ -113,7 +113,7 @@ pub enum ProgramError {
 #[derive(Clone, Debug, Error, PartialEq)]
 #[error(
     "no progress after {shots} shots of patches: the last {window} of them carried {:.1e} % of the emitted power, \
-     and the {window} before these {:.1e} %; expected a tenth of that at most \
+     and the {window} before these {:.1e} %; expected {most:.2} times that at most \
      (\"stop.shots_without_progress\"). Processors with little to do shoot the least light that arrives while \
      others fall behind, or over-shooting diverges: try a higher \"stop.patch_threshold\", another \
      \"mapping\", fewer processors, a smaller \"overshoot\"",
@@ -129,4 +129,6 @@ pub struct NoProgress {
     pub before: f64,
     /// The power that the last ones carried, in the same way.
     pub now: f64,
+    /// What it may be, as a part of `before`.
+    pub most: f64,
 }
