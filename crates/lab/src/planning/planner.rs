@@ -350,7 +350,8 @@ impl<'a> Planner<'a> {
     }
 
     fn too_many_problems(&self) -> Fault {
-        let lists = self.sweep.axes.iter().map(|axis| format!("{} {}", axis.values.len(), axis.place));
+        let lists =
+            self.sweep.axes.iter().map(|axis| format!("{} {}", axis.values.len(), axis.place));
         let lists: Vec<String> = lists.collect();
         let message = format!(
             "the lists ({}) make more than {MOST_PROBLEMS} problems, that is scenes that differ in mesh, cut or \
