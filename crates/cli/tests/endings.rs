@@ -99,14 +99,19 @@ fn shots_that_grow_without_bound_fail() {
 /// Virtual time ends after 213 days: no figure says that a run takes exactly so long.
 #[test]
 fn what_is_later_than_virtual_time_lasts_is_said_in_words() {
-    for (machine, expected) in [
-        (r#""processor": { "scale": 1e300 }"#, "waits for longer than virtual time lasts"),
+    for (base, changes, expected) in [
         (
+            "paragon-xps",
+            r#""processor": { "scale": 1e300 }"#,
+            "waits for a time later than virtual time lasts",
+        ),
+        (
+            "paragon-display",
             r#""start_up": { "bandwidth": "1e-9 B/s" }"#,
             "the start-up of the machine takes longer than virtual time lasts (213 days)",
         ),
     ] {
-        let machine = format!(r#"{{ "extends": "paragon-display", {machine} }}"#);
+        let machine = format!(r#"{{ "extends": "{base}", {changes} }}"#);
         let project = Project::new(&ROOM.replacen('{', &format!(r#"{{ "machine": {machine},"#), 1));
         let (status, stderr, table) = run(&project, &[]);
         assert_eq!(status, Some(1), "{stderr}");

@@ -107,7 +107,7 @@ impl Sum for Duration {
 impl fmt::Display for Time {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
-            Time::MAX => f.pad("later than virtual time lasts"),
+            Time::MAX => f.pad("a time later than virtual time lasts"),
             Time(ticks) => f.pad(&in_largest_unit(ticks)),
         }
     }
@@ -190,7 +190,7 @@ mod tests {
             assert_eq!(Duration(ticks).to_string(), text);
         }
         assert_eq!(format!("[{:>10}]", Time(1_000)), "[      1 ns]");
-        assert_eq!(Time::MAX.to_string(), "later than virtual time lasts");
+        assert_eq!(Time::MAX.to_string(), "a time later than virtual time lasts");
         assert_eq!(Duration::MAX.to_string(), "longer than virtual time lasts");
     }
 }

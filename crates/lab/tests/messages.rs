@@ -497,18 +497,18 @@ fn many_problems_and_machines_are_refused_before_they_are_made() {
         let items: Vec<String> = (0..count).map(item).collect();
         format!("{field}=[{}]", items.join(","))
     };
-    let micrometres = |i| format!("\"{} um\"", 1_000_000 + i);
-    let microseconds = |i| format!("\"{} us\"", 100 + i);
-    let percent = |i| format!("\"{} %\"", 1.0 + 1e-4 * i as f64);
-    let number = |i| (64 + i).to_string();
+    let lengths = |i: usize| format!("\"{} mm\"", 1_000.0 + 0.001 * i as f64);
+    let microseconds = |i: usize| format!("\"{} us\"", 100 + i);
+    let percent = |i: usize| format!("\"{} %\"", 1.0 + 1e-4 * i as f64);
+    let number = |i: usize| (64 + i).to_string();
     // The field, its values, the problems and machines that are made for 50 of them, what 1,001 are refused for.
     let problems =
         "problems, that is scenes that differ in mesh, cut or hemisphere; expected fewer";
     let machines = "more than 1000 different machines; expected fewer";
     let fields: [(&str, &dyn Fn(usize) -> String, [usize; 2], Option<&str>); 6] = [
         ("hemisphere.pixels", &number, [50, 1], Some(problems)),
-        ("patch_size", &micrometres, [50, 1], Some(problems)),
-        ("emitter_patch_size", &micrometres, [50, 1], Some(problems)),
+        ("patch_size", &lengths, [50, 1], Some(problems)),
+        ("emitter_patch_size", &lengths, [50, 1], Some(problems)),
         ("machine.network.parameters.latency", &microseconds, [1, 50], Some(machines)),
         ("stop.patch_threshold", &percent, [1, 1], None),
         ("seed", &number, [1, 1], None),
