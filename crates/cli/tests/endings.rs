@@ -50,7 +50,7 @@ const TOO_EARLY: &str = r#"{
 }"#;
 
 #[test]
-fn an_end_that_is_announced_too_early_is_told() {
+fn an_end_that_is_announced_too_early() {
     let (status, stderr, table) = run(&Project::new(TOO_EARLY), &[]);
     let table = table.unwrap();
     assert_eq!(status, Some(0), "{stderr}");

@@ -486,6 +486,9 @@ fn a_solution_that_stops_early_warns() {
     assert!(warning.starts_with(expected), "{warning}");
 }
 
+/// A field, its values, the problems and machines that are made for 50 of them, and what 1,001 are refused for.
+type Case<'a> = (&'a str, &'a dyn Fn(usize) -> String, [usize; 2], Option<&'a str>);
+
 /// Each of them is made before the first run, so that their number is limited; that of runs that share them is not.
 #[test]
 fn many_problems_and_machines_are_refused_before_they_are_made() {
@@ -501,11 +504,10 @@ fn many_problems_and_machines_are_refused_before_they_are_made() {
     let microseconds = |i: usize| format!("\"{} us\"", 100 + i);
     let percent = |i: usize| format!("\"{} %\"", 1.0 + 1e-4 * i as f64);
     let number = |i: usize| (64 + i).to_string();
-    // The field, its values, the problems and machines that are made for 50 of them, what 1,001 are refused for.
     let problems =
         "problems, that is scenes that differ in mesh, cut or hemisphere; expected fewer";
     let machines = "more than 1000 different machines; expected fewer";
-    let fields: [(&str, &dyn Fn(usize) -> String, [usize; 2], Option<&str>); 6] = [
+    let fields: [Case; 6] = [
         ("hemisphere.pixels", &number, [50, 1], Some(problems)),
         ("patch_size", &lengths, [50, 1], Some(problems)),
         ("emitter_patch_size", &lengths, [50, 1], Some(problems)),

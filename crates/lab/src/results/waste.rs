@@ -6,7 +6,7 @@ use crate::engine::simulator::most_shots_in_sequence;
 use crate::planning::plan::{Plan, Run, all_else};
 use crate::run::runner::Endings;
 
-/// A run that makes more than so many times the shots of one processor is warned of.
+/// A run that makes more than this many times the shots of one processor is warned of.
 const TIMES: f64 = 2.0;
 
 /// Warnings of runs that made many more shots of patches than the same run on one processor, or than one
