@@ -178,6 +178,8 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     output += &format!("Results are in {place}.\n");
     if arguments.quiet {
         output.clear();
+    } else {
+        print_warnings(&lab::waste(&plan, &endings));
     }
     if let Some(live) = live {
         print(&std::mem::take(&mut output));

@@ -259,7 +259,7 @@ fn files_are_told_apart() {
     assert_eq!((code, stderr.as_str()), (0, ""));
     assert_eq!(
         stdout,
-        "experiments/x.json: an experiment, 6 runs of 2 meshed scenes\n\
+        "experiments/x.json: an experiment, 6 runs of 2 problems (scene, mesh, cut and hemisphere)\n\
          machines/paragon-xps.json: a machine, 56 compute nodes and 2 service nodes\n\
          scenes/box.json: a scene, 7 polygons\n\
          scenes/box.obj: an OBJ file, 7 polygons\n"

@@ -128,7 +128,7 @@ fn references_are_stored_with_their_errors() {
 #[test]
 fn paths_go_on_where_they_were() {
     let folder = folder();
-    let paths = "reference s.json --method paths --paths 6400 --output p.json --threads";
+    let paths = "reference s.json --method paths --paths 128000 --output p.json --threads";
     succeeds(folder.path(), &format!("{paths} 1"));
     let read = |name: &str| fs::read_to_string(folder.path().join(name));
     let whole = read("p.json").unwrap();
@@ -136,13 +136,22 @@ fn paths_go_on_where_they_were() {
     succeeds(folder.path(), &format!("{paths} 3"));
     assert_eq!(read("p.json").unwrap(), whole);
 
-    // Where the result cannot be put, what was found stays.
+    // One that is killed leaves what it has found.
     fs::remove_file(folder.path().join("p.json")).unwrap();
-    fs::create_dir(folder.path().join("p.json")).unwrap();
-    assert_eq!(virtwall(folder.path(), &format!("{paths} 2")).0, 2);
-    let partial = read("p.json.partial").unwrap();
-    assert!(partial.contains("\"rounds\":64"), "{partial}");
-    fs::remove_dir(folder.path().join("p.json")).unwrap();
+    let mut killed = Command::new(env!("CARGO_BIN_EXE_virtwall"))
+        .current_dir(folder.path())
+        .args(format!("{paths} 1").split(' '))
+        .spawn()
+        .unwrap();
+    let partial = loop {
+        if let Ok(partial) = read("p.json.partial") {
+            break partial;
+        }
+        assert!(killed.try_wait().unwrap().is_none(), "it ended before it could be killed");
+    };
+    killed.kill().unwrap();
+    killed.wait().unwrap();
+    assert!(read("p.json").is_err(), "it ended before it was killed");
     let partial = lab::unsealed("", &partial).unwrap();
     let resumed_from = |text: &str| {
         fs::write(folder.path().join("p.json.partial"), text).unwrap();

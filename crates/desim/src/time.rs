@@ -103,15 +103,23 @@ impl Sum for Duration {
     }
 }
 
+/// The last moment stands for all that are later.
 impl fmt::Display for Time {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(&in_largest_unit(self.0))
+        match *self {
+            Time::MAX => f.pad("a time later than virtual time lasts"),
+            Time(ticks) => f.pad(&in_largest_unit(ticks)),
+        }
     }
 }
 
+/// The longest span stands for all that are longer.
 impl fmt::Display for Duration {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(&in_largest_unit(self.0))
+        match *self {
+            Duration::MAX => f.pad("longer than virtual time lasts"),
+            Duration(ticks) => f.pad(&in_largest_unit(ticks)),
+        }
     }
 }
 
@@ -176,11 +184,13 @@ mod tests {
             (2_400_000_000, "2.4 ms"),
             (10_000_000_000_000, "10 s"),
             (147_580_000_000_000, "147.58 s"),
-            (u64::MAX, "18446744.073709551615 s"),
+            (u64::MAX - 1, "18446744.073709551614 s"),
         ] {
             assert_eq!(Time(ticks).to_string(), text);
             assert_eq!(Duration(ticks).to_string(), text);
         }
         assert_eq!(format!("[{:>10}]", Time(1_000)), "[      1 ns]");
+        assert_eq!(Time::MAX.to_string(), "a time later than virtual time lasts");
+        assert_eq!(Duration::MAX.to_string(), "longer than virtual time lasts");
     }
 }

@@ -37,6 +37,7 @@ pub use results::folder::{Results, write_host_times};
 pub use results::live_page::live_page;
 pub use results::networks::text as networks_text;
 pub use results::origin::write_origin;
+pub use results::waste::waste;
 pub use run::claim::Claim;
 pub use run::feed::{Feed, News};
 pub use run::progress::Counters;

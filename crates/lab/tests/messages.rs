@@ -485,3 +485,44 @@ fn a_solution_that_stops_early_warns() {
     let expected = "62.8 % of the light is unshot after 9 shots; expected at most 10.0 %";
     assert!(warning.starts_with(expected), "{warning}");
 }
+
+/// A field, its values, the problems and machines that are made for 50 of them, and what 1,001 are refused for.
+type Case<'a> = (&'a str, &'a dyn Fn(usize) -> String, [usize; 2], Option<&'a str>);
+
+/// Each of them is made before the first run, so that their number is limited; that of runs that share them is not.
+#[test]
+fn many_problems_and_machines_are_refused_before_they_are_made() {
+    let project = Project::new(
+        r#"{"title": "t", "scene": "box", "processors": 1, "local_environments": 4, "hemisphere": {"pixels": 64}}"#,
+    );
+    let path = project.path("experiments/x.json");
+    let list = |field: &str, count: usize, item: &dyn Fn(usize) -> String| {
+        let items: Vec<String> = (0..count).map(item).collect();
+        format!("{field}=[{}]", items.join(","))
+    };
+    let lengths = |i: usize| format!("\"{} mm\"", 1_000.0 + 0.001 * i as f64);
+    let microseconds = |i: usize| format!("\"{} us\"", 100 + i);
+    let percent = |i: usize| format!("\"{} %\"", 1.0 + 1e-4 * i as f64);
+    let number = |i: usize| (64 + i).to_string();
+    let problems =
+        "problems, that is scenes that differ in mesh, cut or hemisphere; expected fewer";
+    let machines = "more than 1000 different machines; expected fewer";
+    let fields: [Case; 6] = [
+        ("hemisphere.pixels", &number, [50, 1], Some(problems)),
+        ("patch_size", &lengths, [50, 1], Some(problems)),
+        ("emitter_patch_size", &lengths, [50, 1], Some(problems)),
+        ("machine.network.parameters.latency", &microseconds, [1, 50], Some(machines)),
+        ("stop.patch_threshold", &percent, [1, 1], None),
+        ("seed", &number, [1, 1], None),
+    ];
+    for (field, item, made, refused) in fields {
+        let few = Plan::read(&path, &[list(field, 50, item)], &Preparing::default()).unwrap();
+        assert_eq!([few.problems.len(), few.machines.len()], made, "{field}");
+        let many = Plan::read(&path, &[list(field, 1_001, item)], &Preparing::default());
+        match (many, refused) {
+            (Ok(plan), None) => assert_eq!(plan.runs.len(), 1_001),
+            (Err(fault), Some(refused)) => assert!(fault.to_string().contains(refused), "{fault}"),
+            (many, _) => panic!("{field}: {:?}", many.err()),
+        }
+    }
+}

@@ -28,9 +28,10 @@ pub use problem::{
     Source, SourceSplit,
 };
 pub use program::{
-    Collection, ComputeNode, Display, EnvironmentResult, Event, NoDisplay, NodeResult, Order,
-    Process, ProgramError, Queue, Rules, Selection, Step, Ties, Turn, compute_node, service_node,
+    Collection, ComputeNode, Display, EnvironmentResult, Event, NoDisplay, NoProgress, NodeResult,
+    Order, Process, ProgramError, Queue, Rules, Selection, Step, Ties, Turn, compute_node,
+    service_node,
 };
-pub use run::{Counts, DisplayReport, Ending, NodeReport, Outcome, Run};
+pub use run::{Counts, DisplayReport, Ending, NodeReport, Outcome, Run, most_shots_in_sequence};
 pub use walls::WallPatch;
 pub use wire::{DecodeError, Message, MessageKind, PatchUpdate, Sums};

@@ -9,10 +9,10 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use common::{grey, paragon, problem, rules, same, scene, sides, two_rooms_cut};
 use desim::{Duration, Time};
-use multicomputer::{ContentionFree, Delivery, Formula, Message};
+use multicomputer::{ContentionFree, Delivery, Formula, Ideal, Machine, Message};
 use virtwall::{
     Ending, KeptShots, Outcome, Problem, ProgramError, Rules, Run, RunError, Shooting, SourceSplit,
-    run_on_threads, simulate, simulate_observed,
+    most_shots_in_sequence, run_on_threads, simulate, simulate_observed,
 };
 
 fn run(problem: &Arc<Problem>, processors: usize, rules: Rules) -> Run {
@@ -175,6 +175,36 @@ fn over_shooting_ends_by_the_threshold_of_patches() {
     assert_eq!(shots[1], shots[2]);
 }
 
+/// The period of collection moves a run only by the time of its messages and of the search for a source that
+/// follows each: where these take none, runs are the same to the bit with any period. On one processor the light is
+/// the same also where they take time.
+#[test]
+fn the_period_of_collection_moves_a_run_only_by_what_its_messages_cost() {
+    let problem = two_rooms_cut([4, 2, 1]);
+    let shooting = Shooting { overshoot: 1.5, ..Shooting::default() };
+    let mut free = paragon();
+    for search in ["patch_scan", "queue_scan"] {
+        *free.processor.cycles.get_mut(search).unwrap() = 0.0;
+    }
+    let outcome = |processors, machine: &Machine, ideal, seconds| {
+        let collect_every = Duration::from_seconds_f64(seconds);
+        let rules = Rules { collect_every, shooting, patch_threshold: 1e-3, ..rules() };
+        let network = if ideal { Box::new(ContentionFree::new(Ideal)) } else { machine.network() };
+        let run = run(&problem, processors, rules);
+        let Outcome { time, counts, energy, radiosity, .. } =
+            simulate_observed(&run, machine, network, None).unwrap();
+        (time, (counts.local_shots, counts.received_shots, energy, radiosity))
+    };
+    for processors in [1, 3, 8] {
+        let once = outcome(processors, &free, true, 1e4);
+        assert_eq!(outcome(processors, &free, true, 1e-3), once);
+        assert_eq!(outcome(processors, &free, true, 0.07), once);
+    }
+    let [often, once] = [1e-3, 1e4].map(|seconds| outcome(1, &paragon(), false, seconds));
+    assert!(often.0 > once.0);
+    assert_eq!(often.1, once.1);
+}
+
 /// Light that does not fall ends the run with an error, on both back ends.
 #[test]
 fn no_progress_ends_the_run() {
@@ -183,10 +213,28 @@ fn no_progress_ends_the_run() {
     let rules = Rules { shooting, shots_without_progress: Some(2_000), ..rules() };
     let run = run(&problem, 2, rules);
     for ended in [simulate(&run, &paragon()), run_on_threads(&run)] {
-        let error = ended.unwrap_err();
-        let expected = ProgramError::NoProgress { shots: 2_000 };
-        assert!(matches!(&error, RunError::Program(found) if *found == expected), "{error}");
+        let Err(RunError::Program(ProgramError::NoProgress(error))) = ended else {
+            panic!("{ended:?}");
+        };
+        assert_eq!((error.window, error.shots % 2_000), (2_000, 0));
+        let falls = error.now < error.most * error.before;
+        assert!(!falls, "{error}");
     }
+}
+
+/// Processors with little to do shoot the least light that arrives, while others fall behind: their shots grow
+/// without bound as the threshold falls, and the run says so.
+#[test]
+fn shots_that_grow_without_bound_end_the_run() {
+    let problem = two_rooms_cut([2, 2, 2]);
+    let outcome = |processors, patch_threshold| {
+        simulate(&run(&problem, processors, Rules { patch_threshold, ..rules() }), &paragon())
+    };
+    let fine = outcome(1, 1e-11).unwrap();
+    let most = most_shots_in_sequence(&problem, &Rules { patch_threshold: 1e-11, ..rules() });
+    assert!((fine.counts.local_shots as f64) < most.unwrap(), "{most:?}");
+    let error = outcome(3, 1e-25).unwrap_err();
+    assert!(matches!(error, RunError::Program(ProgramError::NoProgress(_))), "{error}");
 }
 
 /// A processor that takes longer than virtual time lasts.

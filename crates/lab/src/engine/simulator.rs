@@ -312,6 +312,11 @@ fn rules(point: &Experiment) -> Rules {
     }
 }
 
+/// The most shots of patches that one processor needs at a point of an experiment, where that is known.
+pub fn most_shots_in_sequence(problem: &Problem, point: &Experiment) -> Option<f64> {
+    virtwall::most_shots_in_sequence(problem, &rules(point))
+}
+
 /// How patches are shot at a point of an experiment, where it goes beyond the paper.
 pub fn shooting(point: &Experiment) -> Shooting {
     let SplitFields { most, nearer_than } = point.source_split;

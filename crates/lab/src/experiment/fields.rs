@@ -194,8 +194,11 @@ pub struct Stop {
     pub energy_threshold: Fraction,
     /// How often the service node collects the energy left. Choice C8: unpublished.
     pub collect_every: Period,
-    /// The run fails when this number of shots carried no less light than as many shots before them, as where
-    /// over-shooting diverges. Default: a thousand for each patch, but a million at least.
+    /// The run fails when this number of shots of patches carried more than a tenth of the light that as many
+    /// before them carried, or with over-shooting by w more than 0.1^(w (2 - w)): where processors with little to
+    /// do shoot the least light that arrives while others fall behind, or where over-shooting diverges. Default: 10
+    /// x processors x patches / (1 - the greatest reflectance, 0.9999 at most), times the sources that a patch is
+    /// cut into; bins of virtual walls count as patches. On one processor light falls to 1/20,000 in as many, or further. Assumed: the 10.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1))]
     pub shots_without_progress: Option<std::num::NonZeroU32>,

@@ -46,7 +46,12 @@ pub fn check(path: &Path) -> Result<Checked, Fault> {
     if has("scene") || has("plots") {
         let plan = Plan::read(path, &[], &Preparing { finding: false, ..Preparing::default() })?;
         let (runs, problems) = (plan.runs.len(), plan.problems.len());
-        let what = format!("an experiment, {runs} runs of {problems} meshed scenes");
+        let s = |count| if count == 1 { "" } else { "s" };
+        let what = format!(
+            "an experiment, {runs} run{} of {problems} problem{} (scene, mesh, cut and hemisphere)",
+            s(runs),
+            s(problems)
+        );
         return Ok(Checked { what, warnings: plan.warnings });
     }
     if has("obj") || has("made") {

@@ -11,6 +11,9 @@ use crate::files::find::{FileKind, find};
 use crate::open::machine_file::MachineFile;
 use crate::planning::plan::Equipment;
 
+/// The most different machines of an experiment: each is built before the first run.
+pub const MOST_MACHINES: usize = 1_000;
+
 #[derive(Default)]
 pub struct Machines {
     /// All of them, in the order in which points name them first.
@@ -32,6 +35,10 @@ impl Machines {
         let key = serde_json::to_string(choice).unwrap_or_default();
         if let Some(&known) = self.known.get(&key) {
             return Ok(known);
+        }
+        if self.read.len() == MOST_MACHINES {
+            let message = format!("more than {MOST_MACHINES} different machines; expected fewer");
+            return Err(fault(Place::of("machine"), message));
         }
         let changes = choice.changes();
         let field = if changes.is_some() { "machine.extends" } else { "machine" };

@@ -31,6 +31,9 @@ use crate::table::cheapest::{least_time, read_sweep};
 use crate::table::comparison::Comparison;
 use crate::table::runs_csv::Table;
 
+/// The most problems of an experiment: each is meshed and cut, and its hemisphere made, before the first run.
+pub const MOST_PROBLEMS: usize = 1_000;
+
 /// What planning has read so far.
 pub struct Planner<'a> {
     path: &'a Path,
@@ -39,6 +42,8 @@ pub struct Planner<'a> {
     sweep: &'a Sweep,
     preparing: &'a Preparing<'a>,
     scenes: Vec<Found>,
+    /// Indices into `scenes`, by what the experiment calls them.
+    known_scenes: BTreeMap<String, usize>,
     machines: Machines,
     /// Indices into `stored`, by file and scene.
     references: BTreeMap<(PathBuf, usize), usize>,
@@ -76,6 +81,7 @@ impl<'a> Planner<'a> {
             document,
             preparing,
             scenes: Vec::new(),
+            known_scenes: BTreeMap::new(),
             machines: Machines::default(),
             references: BTreeMap::new(),
             stored: Vec::new(),
@@ -204,13 +210,19 @@ impl<'a> Planner<'a> {
     }
 
     fn scene(&mut self, point: &Point, typed: &Experiment) -> Result<usize, Fault> {
-        let found = find(self.folder, &FileKind::SCENES, &typed.scene)
-            .map_err(|message| self.fault(point, "scene", message))?;
-        if let Some(known) = self.scenes.iter().position(|scene| scene.path == found.path) {
+        if let Some(&known) = self.known_scenes.get(&typed.scene) {
             return Ok(known);
         }
-        self.scenes.push(found);
-        Ok(self.scenes.len() - 1)
+        let found = find(self.folder, &FileKind::SCENES, &typed.scene)
+            .map_err(|message| self.fault(point, "scene", message))?;
+        // Several names may mean one file.
+        let same = self.scenes.iter().position(|scene| scene.path == found.path);
+        let scene = same.unwrap_or_else(|| {
+            self.scenes.push(found);
+            self.scenes.len() - 1
+        });
+        self.known_scenes.insert(typed.scene.clone(), scene);
+        Ok(scene)
     }
 
     /// Checks the accuracy that a point asks for, and reads the sweep it is compared with, once.
@@ -317,6 +329,9 @@ impl<'a> Planner<'a> {
             let text = serde_json::to_string(&settings).unwrap_or_default();
             let problem = *known.entry(text).or_insert(wanted.len());
             problem_of.push(problem);
+            if problem == MOST_PROBLEMS {
+                return Err(self.too_many_problems());
+            }
             if problem == wanted.len() {
                 wanted.push((settings, draft));
             }
@@ -333,6 +348,18 @@ impl<'a> Planner<'a> {
         };
         let problems = parallel::map(wanted.len(), self.preparing.threads, prepare);
         Ok((problems.into_iter().collect::<Result<_, Fault>>()?, problem_of))
+    }
+
+    fn too_many_problems(&self) -> Fault {
+        let lists =
+            self.sweep.axes.iter().map(|axis| format!("{} {}", axis.values.len(), axis.place));
+        let lists: Vec<String> = lists.collect();
+        let message = format!(
+            "the lists ({}) make more than {MOST_PROBLEMS} problems, that is scenes that differ in mesh, cut or \
+             hemisphere; expected fewer",
+            lists.join(", ")
+        );
+        self.document.fault(&Place::default(), message)
     }
 
     /// The experiment file with every default filled in: an equivalent file.

@@ -16,3 +16,4 @@ pub mod run_table; // The table of a plan's runs.
 pub mod scale; // The axes of a plot.
 pub mod series; // The points and lines of a plot.
 pub mod summary; // Simulated figures compared with published ones.
+pub mod waste; // Warnings of runs that made many more shots than one processor.

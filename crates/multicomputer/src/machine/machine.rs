@@ -265,6 +265,15 @@ fn node_memory(file: &NodeMemoryFile) -> Result<NodeMemory, Fault> {
             format!("found {system} B of {installed} B; expected less, so that some is left");
         return refuse("node_memory.system.value", message);
     }
+    let buffers = bytes(&file.message_buffers);
+    if buffers >= installed - system {
+        let message = format!(
+            "found {installed} B; expected more than {} B, so that some is left for the program: {system} B are \
+             the system's and {buffers} B message buffers",
+            system.saturating_add(buffers)
+        );
+        return refuse("node_memory.installed.value", message);
+    }
     let burst = bytes(&file.burst);
     if burst == 0 {
         return refuse("node_memory.burst.value", "found 0 B; expected at least 1 B");
@@ -276,7 +285,7 @@ fn node_memory(file: &NodeMemoryFile) -> Result<NodeMemory, Fault> {
     let sizes = file.sizes.iter().map(|(name, size)| (name.clone(), bytes(size)));
     Ok(NodeMemory {
         available: installed - system,
-        message_buffers: bytes(&file.message_buffers),
+        message_buffers: buffers,
         burst,
         fault_time: file.fault_time.duration(),
         bandwidth: file.bandwidth.si(),

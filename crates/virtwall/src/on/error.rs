@@ -32,6 +32,9 @@ pub enum RunError {
         /// Unit of the missing number.
         unit: &'static str,
     },
+    /// The initialisation takes too long to say how long.
+    #[error("the start-up of the machine takes longer than virtual time lasts (213 days)")]
+    StartUp,
     /// Deadlock: processes wait and no event is left.
     #[error(transparent)]
     Stalled(#[from] Stalled),

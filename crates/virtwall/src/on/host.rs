@@ -30,7 +30,7 @@ impl Host {
             Event::Brightest(emitter) => self.look_ahead.foresee_patch(emitter),
             Event::HandedOn(source) => self.look_ahead.foresee(Cow::Borrowed(source)),
             Event::Shot { source, .. } => {
-                self.progress.shot(source.power());
+                self.progress.shot(source);
                 (self.on_shot)();
             }
             Event::Selected(_) | Event::Queued { .. } | Event::Taken { .. } => {}

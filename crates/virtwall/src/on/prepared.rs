@@ -37,8 +37,6 @@ impl Prepared {
             wall_threshold: brightest * rules.wall_threshold,
             cast: Box::new(move |source: &Source| casts.cast(source)),
         });
-        let most = || (1_000 * problem.patches() as u64).max(1_000_000);
-        let limit = rules.shots_without_progress.unwrap_or_else(most);
         let threshold = brightest * rules.patch_threshold;
         let nodes = (0..*processors).map(|rank| ComputeNode::new(&shared, rank, threshold));
         let emitted = problem.emitted_power().element_sum();
@@ -51,7 +49,7 @@ impl Prepared {
             },
             host: Host {
                 look_ahead,
-                progress: Arc::new(Progress::new(limit)),
+                progress: Arc::new(Progress::of(run)),
                 on_shot: Arc::clone(on_shot),
             },
         })

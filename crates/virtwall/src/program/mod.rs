@@ -15,7 +15,7 @@ mod virtual_walls;
 
 pub use compute_node::{ComputeNode, compute_node};
 pub use node_result::{EnvironmentResult, NodeResult};
-pub use process::{Event, Process, ProgramError, Step};
+pub use process::{Event, NoProgress, Process, ProgramError, Step};
 pub use queue::{Queue, Turn};
 pub use rules::{Order, Rules, Selection, Ties};
 pub use service_node::{Collection, Display, NoDisplay, service_node};

@@ -104,13 +104,31 @@ pub enum ProgramError {
         /// What is wrong with it.
         error: DecodeError,
     },
-    /// Shots go on, but carry no less light.
-    #[error(
-        "no progress: {shots} shots carried no less light than the {shots} before them \
-         (limit: \"stop.shots_without_progress\")"
-    )]
-    NoProgress {
-        /// The limit.
-        shots: u64,
-    },
+    /// Shots go on, but light does not fall.
+    #[error(transparent)]
+    NoProgress(#[from] NoProgress),
+}
+
+/// Shots of patches that carried too much of what as many shots before them carried.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error(
+    "no progress after {shots} shots of patches: the last {window} of them carried {:.1e} % of the emitted power, \
+     and the {window} before these {:.1e} %; expected {most:.2} times that at most \
+     (\"stop.shots_without_progress\"). Processors with little to do shoot the least light that arrives while \
+     others fall behind, or over-shooting diverges: try a higher \"stop.patch_threshold\", another \
+     \"mapping\", fewer processors, a smaller \"overshoot\"",
+    100.0 * now,
+    100.0 * before
+)]
+pub struct NoProgress {
+    /// All shots of patches.
+    pub shots: u64,
+    /// Those that are compared with as many before them.
+    pub window: u64,
+    /// The power that these before carried, as a share of the emitted power.
+    pub before: f64,
+    /// The power that the last ones carried, in the same way.
+    pub now: f64,
+    /// What it may be, as a part of `before`.
+    pub most: f64,
 }

@@ -36,8 +36,9 @@ pub struct Rules {
     ///
     /// Choice C8: "on a regular basis" (§4.2.4).
     pub collect_every: Duration,
-    /// The run ends with an error when this number of shots carried no less light than as many shots before
-    /// them. Default: a thousand for each patch, but a million at least.
+    /// The run ends with an error when this number of shots of patches carried more than a tenth of the power
+    /// that as many before them carried, or a larger part with over-shooting. Default: ten times as many as make light fall to 1/e on one processor,
+    /// for each processor.
     pub shots_without_progress: Option<u64>,
     /// Whether radiosity updates are sent to the service node after every shot (Figure 6).
     pub radiosity_updates: bool,

@@ -29,7 +29,7 @@ pub struct StartUpReport {
 /// Choice C30: computing begins when all nodes are ready.
 ///
 /// # Errors
-/// When the machine has no price for a step.
+/// When the machine has no price for a step, or virtual time is over before the end.
 #[doc(alias = "load_scene")]
 pub fn start_up(
     run: &Run,
@@ -59,5 +59,9 @@ pub fn start_up(
         let time = read + Duration::from_seconds_f64(seconds(counts));
         StartUpReport { time, reading: read, disk_wait: reading.waited }
     });
-    Ok(reports.max_by_key(|report| report.time))
+    let last = reports.max_by_key(|report| report.time);
+    match last.filter(|report| report.time == Duration::MAX) {
+        Some(_) => Err(RunError::StartUp),
+        None => Ok(last),
+    }
 }
