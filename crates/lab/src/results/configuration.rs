@@ -6,9 +6,11 @@ use config::Document;
 use serde_json::{Map, Value};
 
 use crate::engine::simulator::On;
-use crate::experiment::fields::UNSWEPT;
 use crate::files::digest::sha256;
 use crate::planning::plan::Plan;
+
+/// Fields of an experiment that decide no figure.
+const PRESENTATION: [&str; 3] = ["$schema", "title", "plots"];
 
 /// The longest name of a folder that is made from arguments.
 const LONGEST: usize = 100;
@@ -42,7 +44,7 @@ pub fn difference(plan: &Plan, on: On, out: &Path) -> Option<String> {
         let fields = experiment.as_object_mut();
         fields
             .into_iter()
-            .for_each(|fields| fields.retain(|key, _| !UNSWEPT.contains(&key.as_str())));
+            .for_each(|fields| fields.retain(|key, _| !PRESENTATION.contains(&key.as_str())));
         experiment
     };
     named("", &without(&plan.resolved), &without(&there["experiment"]))

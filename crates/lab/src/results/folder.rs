@@ -124,7 +124,9 @@ impl Results {
 
     /// The table for a terminal.
     pub fn text(&self) -> String {
-        table_text(&self.table, &self.sweeps()) + &cheapest::text(&self.table, &self.sweeps())
+        let sweeps = self.sweeps();
+        let base = self.manifest["experiment"]["speed_up_over"].as_u64().unwrap_or(1);
+        table_text(&self.table, &sweeps, base) + &cheapest::text(&self.table, &sweeps)
     }
 
     /// How many runs failed.

@@ -29,7 +29,7 @@ pub fn html(
     recorded: Option<&ReportParts>,
 ) -> String {
     let lead = lead(manifest, runs);
-    let compared = Summary::of(runs).lines();
+    let compared = Summary::of(runs, sweeps).lines();
     let summary =
         compared.iter().map(|line| format!("<p class=\"summary\">{}</p>\n", escape(line)));
     let summary: String = summary.collect();

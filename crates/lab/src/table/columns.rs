@@ -22,9 +22,12 @@ pub const COLUMNS: &[Column] = &[
     column("time_s", "Virtual time, s. Empty on threads.", always, |r| {
         fixed(r.figures?.time_s?, 6)
     }),
-    column("speed_up", "Time on one processor, all else equal, over time_s.", always, |r| {
-        fixed(r.speed_up?, 4)
-    }),
+    column(
+        "speed_up",
+        "Time on one processor, or on \"speed_up_over\", all else equal, over time_s.",
+        always,
+        |r| fixed(r.speed_up?, 4),
+    ),
     column("paper_time_s", "Published time, s.", always, |r| text(&r.published.time_s)),
     column("paper_speed_up", "Published speed-up.", always, |r| text(&r.published.speed_up)),
     column("local_shots", "Patches shot in their own local environments.", always, |r| {
@@ -39,9 +42,15 @@ pub const COLUMNS: &[Column] = &[
     column("energy_error", "Error of the energy balance, over the emitted energy.", always, |r| {
         text(format_args!("{:e}", r.figures?.energy_error))
     }),
-    column("efficiency", "Speed-up over processors.", always, |r| {
-        fixed(r.speed_up? / f64::from(r.input.point.processors), 4)
-    }),
+    column(
+        "efficiency",
+        "Speed-up over processors, times those that it is relative to.",
+        always,
+        |r| {
+            let base = r.input.point.speed_up_over.unwrap_or(1);
+            fixed(r.speed_up? * f64::from(base) / f64::from(r.input.point.processors), 4)
+        },
+    ),
     column("update_messages", "Radiosity updates to the service node.", always, |r| {
         text(r.figures?.update_messages)
     }),
