@@ -14,6 +14,7 @@ use traces::{Format, Sample};
 use crate::exit::{Exit, print, print_warnings};
 use crate::files::make_folder;
 use crate::live;
+use crate::named::not_an_experiment;
 use crate::progress::{Pilots, Progress};
 use crate::threads::Threads;
 
@@ -112,8 +113,9 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let set: Vec<String> = arguments.set.iter().cloned().chain(network).collect();
     let threads = arguments.threads.count();
     let memory = arguments.memory.unwrap_or_else(lab::half_of_free_memory);
+    let meant = |exit: Exit| not_an_experiment(&arguments.experiment).map_or(exit, Exit::bad_input);
     let found = find_here(&FileKind::EXPERIMENTS, &arguments.experiment);
-    let file = found.map_err(Exit::bad_input)?.path;
+    let file = found.map_err(|message| meant(Exit::bad_input(message)))?.path;
     let default = || PathBuf::from("results").join(file.file_stem().unwrap_or_default());
     let out = arguments.out.clone().unwrap_or_else(default);
     for folder in [out.join(".partial"), out.clone()] {
@@ -122,7 +124,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let pilots = Pilots::new(arguments.quiet);
     let on_pilot = |scene: &str, target, runs| pilots.update(scene, target, runs);
     let preparing = Preparing { threads, memory, finding: true, on_pilot: &on_pilot };
-    let plan = Arc::new(Plan::read(&file, &set, &preparing)?);
+    let plan = Arc::new(Plan::read(&file, &set, &preparing).map_err(|fault| meant(fault.into()))?);
     pilots.end();
     if !arguments.quiet {
         print_warnings(&plan.warnings);

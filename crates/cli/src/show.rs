@@ -1,0 +1,77 @@
+//! `virtwall show`: a scene, a machine or an experiment, whichever has the name.
+
+use clap::{Args, ValueEnum};
+use config::unknown;
+use lab::{Kind, Outline};
+
+use crate::exit::Exit;
+use crate::named::{Named, names};
+use crate::{machine, scene};
+
+#[derive(Args)]
+pub struct Arguments {
+    /// Name of a scene, a machine or an experiment, or path to its file
+    name: String,
+    /// Which of them, if the name has several
+    #[arg(long = "as", value_enum, value_name = "KIND")]
+    kind: Option<KindArgument>,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum KindArgument {
+    Scene,
+    Machine,
+    Experiment,
+}
+
+/// Prints what has the name.
+pub fn run(arguments: &Arguments) -> Result<String, Exit> {
+    let name = &arguments.name;
+    let kind = match arguments.kind {
+        Some(KindArgument::Scene) => Kind::Scene,
+        Some(KindArgument::Machine) => Kind::Machine,
+        Some(KindArgument::Experiment) => Kind::Experiment,
+        None => only_kind(name)?,
+    };
+    match kind {
+        Kind::Scene | Kind::Obj => scene::show(name),
+        Kind::Machine => machine::show(name),
+        Kind::Experiment => Ok(experiment(&Outline::open(name)?)),
+    }
+}
+
+/// What the name is the name of.
+fn only_kind(name: &str) -> Result<Kind, Exit> {
+    let kinds: Vec<Kind> = Named::all(name).into_iter().map(|named| named.kind).collect();
+    match kinds[..] {
+        [kind] => Ok(kind),
+        [] if std::path::Path::new(name).is_file() => Err(Exit::bad_input(format!(
+            "{name}: neither a scene, a machine nor an experiment; expected one of them"
+        ))),
+        [] => Err(Exit::bad_input(unknown("scene, machine or experiment", name, &names()))),
+        _ => {
+            let each: Vec<String> = kinds.iter().map(Kind::to_string).collect();
+            let message = format!(
+                "\"{name}\" is {}; to choose: virtwall show {name} --as scene, machine or experiment",
+                each.join(" and ")
+            );
+            Err(Exit::bad_input(message))
+        }
+    }
+}
+
+fn experiment(outline: &Outline) -> String {
+    let mut text = format!("{}\n", outline.title);
+    text += &outline.question.iter().map(|question| format!("{question}\n")).collect::<String>();
+    text += &format!("\n{:<28}{}\n", "runs", outline.runs);
+    for (field, values) in &outline.swept {
+        text += &format!("{:<28}{}\n", format!("swept: {field}"), values.join(", "));
+    }
+    for (field, value) in outline.settings.iter().filter(|(_, value)| !value.is_empty()) {
+        text += &format!("{field:<28}{value}\n");
+    }
+    for (drawn, file) in &outline.plots {
+        text += &format!("{:<28}{drawn} ({file})\n", "plot");
+    }
+    text
+}

@@ -1,0 +1,91 @@
+//! What an experiment does, in short, without its scenes and machines.
+
+use config::{Document, Fault, Place, read};
+use serde_json::Value;
+use std::path::Path;
+
+use crate::experiment::accuracy::REPLACED;
+use crate::experiment::fields::{Experiment, Plot};
+use crate::experiment::sweep::{Sweep, in_words};
+use crate::files::find::{FileKind, find_here};
+use crate::planning::reading::swept;
+
+/// An experiment in short.
+pub struct Outline {
+    /// Its title.
+    pub title: String,
+    /// What it asks, if it is a built-in one.
+    pub question: Option<String>,
+    /// The number of its runs.
+    pub runs: usize,
+    /// The swept fields, the slowest first, and their values.
+    pub swept: Vec<(String, Vec<String>)>,
+    /// Scene and machine, and the fields that say when a run stops.
+    pub settings: Vec<(String, String)>,
+    /// What is drawn, and into which file.
+    pub plots: Vec<(String, String)>,
+}
+
+impl Outline {
+    /// Reads the experiment that a name, or a path to an experiment file, means.
+    pub fn open(name: &str) -> Result<Outline, Fault> {
+        let found = find_here(&FileKind::EXPERIMENTS, name).map_err(Fault::complete)?;
+        let mut document = Document::read(&found.path)?;
+        let sweep = swept(&mut document, &[])?;
+        let point = &sweep.points[0];
+        let first: Experiment = read(&point.value).map_err(|fault| {
+            document.fault(&sweep.place_in_file(point, fault.place), fault.message)
+        })?;
+        let axes = sweep.axes.iter().map(|axis| {
+            (axis.place.to_string(), axis.values.iter().map(in_words).collect::<Vec<String>>())
+        });
+        Ok(Outline {
+            title: first.title.clone(),
+            question: question(&found.path),
+            runs: sweep.points.len(),
+            swept: axes.collect(),
+            settings: settings(&first, &sweep),
+            plots: first.plots.iter().map(|plot| (drawn(plot), plot.stem() + ".svg")).collect(),
+        })
+    }
+}
+
+fn settings(first: &Experiment, sweep: &Sweep) -> Vec<(String, String)> {
+    let text = |field: String, value: &Value| {
+        let place = Place::of(&field);
+        let found = first.accuracy.is_some() && REPLACED.contains(&field.as_str());
+        let text =
+            match sweep.axes.iter().any(|axis| axis.place == place || axis.place.holds(&place)) {
+                _ if found => "found, so that the error is reached".to_owned(),
+                true => "swept".to_owned(),
+                false => in_words(value),
+            };
+        (field, text)
+    };
+    let machine = first.machine.name().to_owned();
+    let mut settings = vec![
+        text("scene".to_owned(), &Value::String(first.scene.clone())),
+        text("machine".to_owned(), &Value::String(machine)),
+    ];
+    let stop = serde_json::to_value(&first.stop).unwrap_or_default();
+    let stop = stop.as_object().into_iter().flatten();
+    settings.extend(stop.map(|(name, value)| text(format!("stop.{name}"), value)));
+    settings
+}
+
+fn drawn(plot: &Plot) -> String {
+    let series = plot.series.iter().map(|series| format!(", a line for each {series}"));
+    format!("{} by {}{}", plot.y, plot.x, series.collect::<String>())
+}
+
+/// What the table of the page of experiments asks in the row of a built-in experiment.
+fn question(path: &Path) -> Option<String> {
+    let page = shipped::file(&path.with_file_name("README.md"))?;
+    let link = format!("]({})", path.file_name()?.to_str()?);
+    let mut rows = str::from_utf8(page).ok()?.lines().filter(|line| line.starts_with("| ["));
+    let row = rows.find(|row| row.contains(&link))?;
+    let cell = row.split('|').nth(2)?.trim();
+    let words =
+        cell.strip_prefix('[').and_then(|cell| cell.split_once("](")).map(|(words, _)| words);
+    Some(words.unwrap_or(cell).to_owned())
+}
