@@ -19,7 +19,7 @@ pub fn fields() -> Vec<Entry> {
     ];
     let mut found = Vec::new();
     for (term, schema) in &files {
-        Walk { term: *term, root: schema, found: &mut found }.inside(schema, "");
+        Walk { term: *term, root: schema, found: &mut found }.inside(schema, "", "");
     }
     found
 }
@@ -46,31 +46,28 @@ struct Walk<'a> {
 }
 
 impl<'a> Walk<'a> {
-    /// Adds the fields of an object.
-    fn inside(&mut self, schema: &'a Value, path: &str) {
+    /// Adds the fields of an object; `of_all` says what fields are whose names the file chooses.
+    fn inside(&mut self, schema: &'a Value, path: &str, of_all: &'a str) {
         for schema in self.alternatives(schema) {
             for (name, field) in schema["properties"].as_object().into_iter().flatten() {
                 let path = if path.is_empty() { name.clone() } else { format!("{path}.{name}") };
-                self.field(field, &path);
+                self.field(field, &path, "");
             }
             if schema["additionalProperties"].is_object() {
-                self.field(&schema["additionalProperties"], &format!("{path}.{ANY}"));
+                self.field(&schema["additionalProperties"], &format!("{path}.{ANY}"), of_all);
             }
-            self.inside_items(schema, path);
+            if schema["items"].is_object() {
+                self.inside(&schema["items"], path, of_all);
+            }
         }
     }
 
-    fn inside_items(&mut self, schema: &'a Value, path: &str) {
-        if schema["items"].is_object() {
-            self.inside(&schema["items"], path);
-        }
-    }
-
-    fn field(&mut self, schema: &'a Value, path: &str) {
+    fn field(&mut self, schema: &'a Value, path: &str, otherwise: &'a str) {
         let alternatives = self.alternatives(schema);
         let texts = [schema].into_iter().chain(alternatives.iter().copied());
         let about = texts.filter_map(|schema| schema["description"].as_str()).next();
-        let entry = Entry::new(self.term, path, about.unwrap_or_default());
+        let about = about.unwrap_or(otherwise);
+        let entry = Entry::new(self.term, path, about);
         let entry = entry.with("takes", self.values(&alternatives));
         self.found.push(match &schema["default"] {
             Value::Null | Value::Object(_) => entry,
@@ -80,7 +77,7 @@ impl<'a> Walk<'a> {
         // The fields of a machine have entries of their own, and so has no part of a sourced number.
         let machine = self.term == Term::ExperimentField && path == "machine";
         if !machine && !alternatives.iter().any(|schema| is_sourced(schema)) {
-            self.inside(schema, path);
+            self.inside(schema, path, about);
         }
     }
 
@@ -91,9 +88,12 @@ impl<'a> Walk<'a> {
             return target.map_or(Vec::new(), |target| self.alternatives(target));
         }
         match schema["anyOf"].as_array() {
-            Some(any) => any.iter().flat_map(|schema| self.alternatives(schema)).collect(),
-            None if schema["type"] == "null" => Vec::new(),
-            None => vec![schema],
+            // Beside fields it says which of them have to be there.
+            Some(any) if schema["properties"].is_null() => {
+                any.iter().flat_map(|schema| self.alternatives(schema)).collect()
+            }
+            _ if schema["type"] == "null" => Vec::new(),
+            _ => vec![schema],
         }
     }
 
