@@ -63,15 +63,13 @@ fn only_kind(name: &str) -> Result<Kind, Exit> {
 fn experiment(outline: &Outline) -> String {
     let mut text = format!("{}\n", outline.title);
     text += &outline.question.iter().map(|question| format!("{question}\n")).collect::<String>();
-    text += &format!("\n{:<28}{}\n", "runs", outline.runs);
-    for (field, values) in &outline.swept {
-        text += &format!("{:<28}{}\n", format!("swept: {field}"), values.join(", "));
-    }
-    for (field, value) in outline.settings.iter().filter(|(_, value)| !value.is_empty()) {
-        text += &format!("{field:<28}{value}\n");
-    }
-    for (drawn, file) in &outline.plots {
-        text += &format!("{:<28}{drawn} ({file})\n", "plot");
-    }
-    text
+    let mut facts = vec![("runs".to_owned(), outline.runs.to_string())];
+    let swept = outline.swept.iter();
+    facts.extend(swept.map(|(field, values)| (format!("{field}, swept"), values.join(", "))));
+    facts.extend(outline.settings.iter().filter(|(_, value)| !value.is_empty()).cloned());
+    let plots = outline.plots.iter();
+    facts.extend(plots.map(|(drawn, file)| ("plot".to_owned(), format!("{drawn} ({file})"))));
+    let width = facts.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0) + 2;
+    let lines = facts.iter().map(|(name, value)| format!("{name:<width$}{value}\n"));
+    text + "\n" + &lines.collect::<String>()
 }

@@ -57,6 +57,7 @@ fn a_run_prints_its_table_and_writes_its_results() {
     let expected = [
         "host-times.json",
         "manifest.json",
+        "operations.csv",
         "report.html",
         "runs.csv",
         "speed_up-by-processors.svg",

@@ -68,8 +68,8 @@ fn whatever_has_a_name_is_shown() {
     let table1 = says(&folder, "show table1");
     for part in [
         "Table 1: times and speed-up\nDo we get the paper's Table 1?\n",
-        "\nruns                        24\n",
-        "\nswept: processors           1, 2, 4, 7, 8, 14, 28, 56\n",
+        "\nruns                        24\nscene, swept                office, rooms, building\n",
+        "\nprocessors, swept           1, 2, 4, 7, 8, 14, 28, 56\n",
         "\nstop.patch_threshold        10 %\n",
         "speed_up by processors, a line for each scene (speed_up-by-processors.svg)\n",
     ] {
@@ -132,7 +132,8 @@ fn the_command_that_was_meant_is_named() {
             answer.split("virtwall ").skip(1).filter_map(|rest| rest.split(';').next()).collect();
         assert_eq!(meant.len(), commands, "{answer}");
         for command in meant {
-            let rest = if command.starts_with("run ") { format!(" {short}") } else { String::new() };
+            let rest =
+                if command.starts_with("run ") { format!(" {short}") } else { String::new() };
             says(&folder, &format!("{command}{rest}"));
         }
     }

@@ -64,9 +64,11 @@ impl<'a> Walk<'a> {
 
     fn field(&mut self, schema: &'a Value, path: &str, otherwise: &'a str) {
         let alternatives = self.alternatives(schema);
-        let texts = [schema].into_iter().chain(alternatives.iter().copied());
-        let about = texts.filter_map(|schema| schema["description"].as_str()).next();
-        let about = about.unwrap_or(otherwise);
+        let sourced = alternatives.iter().any(|schema| is_sourced(schema));
+        // What the type of a sourced number is says nothing of this field.
+        let types = alternatives.iter().copied().filter(|_| !sourced);
+        let mut texts = [schema].into_iter().chain(types);
+        let about = texts.find_map(|schema| schema["description"].as_str()).unwrap_or(otherwise);
         let entry = Entry::new(self.term, path, about);
         let entry = entry.with("takes", self.values(&alternatives));
         self.found.push(match &schema["default"] {
@@ -76,7 +78,7 @@ impl<'a> Walk<'a> {
         });
         // The fields of a machine have entries of their own, and so has no part of a sourced number.
         let machine = self.term == Term::ExperimentField && path == "machine";
-        if !machine && !alternatives.iter().any(|schema| is_sourced(schema)) {
+        if !machine && !sourced {
             self.inside(schema, path, about);
         }
     }

@@ -20,7 +20,7 @@ pub struct Outline {
     pub runs: usize,
     /// The swept fields, the slowest first, and their values.
     pub swept: Vec<(String, Vec<String>)>,
-    /// Scene and machine, and the fields that say when a run stops.
+    /// Scene and machine, and the fields that say when a run stops, unless they are swept.
     pub settings: Vec<(String, String)>,
     /// What is drawn, and into which file.
     pub plots: Vec<(String, String)>,
@@ -51,25 +51,21 @@ impl Outline {
 }
 
 fn settings(first: &Experiment, sweep: &Sweep) -> Vec<(String, String)> {
-    let text = |field: String, value: &Value| {
-        let place = Place::of(&field);
-        let found = first.accuracy.is_some() && REPLACED.contains(&field.as_str());
-        let text =
-            match sweep.axes.iter().any(|axis| axis.place == place || axis.place.holds(&place)) {
-                _ if found => "found, so that the error is reached".to_owned(),
-                true => "swept".to_owned(),
-                false => in_words(value),
-            };
-        (field, text)
-    };
-    let machine = first.machine.name().to_owned();
     let mut settings = vec![
-        text("scene".to_owned(), &Value::String(first.scene.clone())),
-        text("machine".to_owned(), &Value::String(machine)),
+        ("scene".to_owned(), first.scene.clone()),
+        ("machine".to_owned(), first.machine.name().to_owned()),
     ];
     let stop = serde_json::to_value(&first.stop).unwrap_or_default();
     let stop = stop.as_object().into_iter().flatten();
-    settings.extend(stop.map(|(name, value)| text(format!("stop.{name}"), value)));
+    settings.extend(stop.map(|(name, value)| {
+        let field = format!("stop.{name}");
+        let found = first.accuracy.is_some() && REPLACED.contains(&field.as_str());
+        let value = if found { "found, so that the error is reached" } else { &in_words(value) };
+        (field, value.to_owned())
+    }));
+    // Those that are swept are among the swept fields.
+    let swept: Vec<Place> = sweep.axes.iter().map(|axis| axis.place.clone()).collect();
+    settings.retain(|(field, _)| !swept.contains(&Place::of(field)));
     settings
 }
 
