@@ -4,7 +4,7 @@ use clap::Args;
 use lab::{Entry, explain};
 
 use crate::exit::Exit;
-use crate::named::Named;
+use crate::named::kinds_of;
 
 #[derive(Args)]
 pub struct Arguments {
@@ -26,8 +26,8 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
 }
 
 fn unknown(word: &str, nearest: &[String]) -> String {
-    if let Some(named) = Named::all(word).first() {
-        return format!("\"{word}\" is {}; to see it: virtwall show {word}", named.kind);
+    if let Some(kind) = kinds_of(word).first() {
+        return format!("\"{word}\" is {kind}; to see it: virtwall show {word}");
     }
     let near: Vec<String> = nearest.iter().map(|name| format!("\"{name}\"")).collect();
     let hint = match &near[..] {

@@ -4,35 +4,22 @@ use std::path::Path;
 
 use lab::{FileKind, Kind, find_here};
 
-/// A file with a name, and what it is.
-pub struct Named {
-    pub kind: Kind,
-}
-
 const KINDS: [(Kind, FileKind); 3] = [
     (Kind::Scene, FileKind::SCENES),
     (Kind::Machine, FileKind::MACHINES),
     (Kind::Experiment, FileKind::EXPERIMENTS),
 ];
 
-impl Named {
-    /// All that a name means; at most one file, if it is a path.
-    pub fn all(name: &str) -> Vec<Named> {
-        let named = |(kind, folder): &(Kind, FileKind)| {
-            let found = find_here(folder, name).ok()?;
-            // What no folder has as a name is a path.
-            let of_file = || Kind::of_file(&found.path);
-            let kind = if is_path(name, &found.path) { of_file()? } else { *kind };
-            Some(Named { kind })
-        };
-        let mut all: Vec<Named> = KINDS.iter().filter_map(named).collect();
-        all.dedup_by_key(|named| named.kind);
-        all
-    }
-}
-
-fn is_path(name: &str, found: &Path) -> bool {
-    Path::new(name) == found
+/// All that a name means; at most one kind, if it is a path.
+pub fn kinds_of(name: &str) -> Vec<Kind> {
+    let kind_of = |(kind, folder): &(Kind, FileKind)| {
+        let found = find_here(folder, name).ok()?;
+        // What no folder has as a name is a path.
+        if Path::new(name) == found.path { Kind::of_file(&found.path) } else { Some(*kind) }
+    };
+    let mut kinds: Vec<Kind> = KINDS.iter().filter_map(kind_of).collect();
+    kinds.dedup();
+    kinds
 }
 
 /// All names of scenes, machines and experiments here.
@@ -44,19 +31,19 @@ pub fn names() -> Vec<String> {
 
 /// What to say of a name or path that is no experiment, but a scene or a machine: the command that was meant.
 pub fn not_an_experiment(name: &str) -> Option<String> {
-    let kinds: Vec<Kind> = Named::all(name).into_iter().map(|named| named.kind).collect();
+    let kinds = kinds_of(name);
+    let name = &if name.contains(' ') { format!("'{name}'") } else { name.to_owned() };
     let set = |field: &str| format!("virtwall run quickstart --set {field}={name}");
+    let example = |field: &str| format!("name it in an experiment, for example: {}", set(field));
     match kinds.first()? {
-        Kind::Experiment => None,
-        kind @ (Kind::Scene | Kind::Obj) => Some(format!(
-            "{name} is {kind}; to draw it: virtwall render {name} --output picture.png; to run it, name it \
-             in an experiment, for example: {}",
-            set("scene")
+        _ if kinds.contains(&Kind::Experiment) => None,
+        Kind::Machine => Some(format!(
+            "{name} is a machine; to see it: virtwall machine show {name}; to run on it, {}",
+            example("machine")
         )),
-        kind @ Kind::Machine => Some(format!(
-            "{name} is {kind}; to see it: virtwall machine show {name}; to run on it, name it in an \
-             experiment, for example: {}",
-            set("machine")
+        kind => Some(format!(
+            "{name} is {kind}; to draw it: virtwall render {name} --output picture.png; to run it, {}",
+            example("scene")
         )),
     }
 }

@@ -5,7 +5,7 @@ use config::unknown;
 use lab::{Kind, Outline};
 
 use crate::exit::Exit;
-use crate::named::{Named, names};
+use crate::named::{kinds_of, names};
 use crate::{machine, scene};
 
 #[derive(Args)]
@@ -42,7 +42,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
 
 /// What the name is the name of.
 fn only_kind(name: &str) -> Result<Kind, Exit> {
-    let kinds: Vec<Kind> = Named::all(name).into_iter().map(|named| named.kind).collect();
+    let kinds = kinds_of(name);
     match kinds[..] {
         [kind] => Ok(kind),
         [] if std::path::Path::new(name).is_file() => Err(Exit::bad_input(format!(

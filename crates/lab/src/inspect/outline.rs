@@ -1,8 +1,8 @@
 //! What an experiment does, in short, without its scenes and machines.
 
-use config::{Document, Fault, Place, read};
-use serde_json::Value;
 use std::path::Path;
+
+use config::{Document, Fault, Place, read, read_text};
 
 use crate::experiment::accuracy::REPLACED;
 use crate::experiment::fields::{Experiment, Plot};
@@ -14,7 +14,7 @@ use crate::planning::reading::swept;
 pub struct Outline {
     /// Its title.
     pub title: String,
-    /// What it asks, if it is a built-in one.
+    /// What it asks, if the page of its folder says so.
     pub question: Option<String>,
     /// The number of its runs.
     pub runs: usize,
@@ -74,11 +74,11 @@ fn drawn(plot: &Plot) -> String {
     format!("{} by {}{}", plot.y, plot.x, series.collect::<String>())
 }
 
-/// What the table of the page of experiments asks in the row of a built-in experiment.
+/// What the README of the folder asks in its table, in the row that links to the experiment.
 fn question(path: &Path) -> Option<String> {
-    let page = shipped::file(&path.with_file_name("README.md"))?;
+    let page = read_text(&path.with_file_name("README.md")).ok()?;
     let link = format!("]({})", path.file_name()?.to_str()?);
-    let mut rows = str::from_utf8(page).ok()?.lines().filter(|line| line.starts_with("| ["));
+    let mut rows = page.lines().filter(|line| line.starts_with("| ["));
     let row = rows.find(|row| row.contains(&link))?;
     let cell = row.split('|').nth(2)?.trim();
     let words =
