@@ -52,21 +52,20 @@ fn fits(name: &str, word: &str) -> bool {
     }
 }
 
-/// The names nearest to a word: by the letters of their last parts, then those that contain it.
+/// The names nearest to a word: by their letters, then by those of their last parts, then those that contain it.
 fn nearest(word: &str, all: &[Entry]) -> Vec<String> {
-    let last = |name: &str| name.rsplit('.').next().unwrap_or_default().to_owned();
-    let near = |entry: &Entry| {
-        let parts = [distance(word, &entry.name), distance(&last(word), &last(&entry.name))];
-        let contains = word.len() > 2 && entry.name.contains(word);
-        parts.into_iter().flatten().min().or(contains.then_some(usize::MAX))
+    let near = |name: &str| {
+        let last = name.rsplit('.').next().filter(|_| !word.is_empty() && !word.contains('.'));
+        let whole = distance(word, name).filter(|_| !word.is_empty()).map(|letters| (0, letters));
+        let part = || Some((1, distance(word, last?)?));
+        let inside = || (word.len() > 2 && name.contains(word)).then_some((2, name.len()));
+        whole.or_else(part).or_else(inside)
     };
-    let mut near: Vec<(usize, usize, String)> = all
-        .iter()
-        .filter_map(|entry| Some((near(entry)?, entry.name.len(), entry.name.clone())))
-        .collect();
+    let near = |entry: &Entry| Some((near(&entry.name)?, entry.name.clone()));
+    let mut near: Vec<((u8, usize), String)> = all.iter().filter_map(near).collect();
     near.sort();
-    near.dedup_by(|a, b| a.2 == b.2);
-    near.into_iter().take(SUGGESTIONS).map(|(_, _, name)| name).collect()
+    near.dedup();
+    near.into_iter().take(SUGGESTIONS).map(|(_, name)| name).collect()
 }
 
 #[cfg(test)]
@@ -95,6 +94,8 @@ mod tests {
         ] {
             assert!(explain(word).unwrap_err().iter().any(|name| name == nearest), "{word}");
         }
+        assert_eq!(explain("operations.rays").unwrap_err()[0], "operations.ray");
         assert_eq!(explain("xyzzyxyzzy"), Err(Vec::new()));
+        assert_eq!(explain(""), Err(Vec::new()));
     }
 }
