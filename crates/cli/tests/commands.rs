@@ -57,6 +57,7 @@ fn a_run_prints_its_table_and_writes_its_results() {
     let expected = [
         "host-times.json",
         "manifest.json",
+        "operations.csv",
         "origin.json",
         "report.html",
         "runs.csv",
@@ -241,7 +242,10 @@ fn saved_results_are_drawn_anew() {
     // What the viewer shows was recorded in the run, and stands in the report alone.
     fs::remove_file(project.path("out").join(names[1])).unwrap();
     let (code, stdout, _) = output(&project, &["plot", "out"]);
-    assert_eq!((code, stdout.as_str()), (0, "out/speed_up-by-processors.svg\nout/report.html\n"));
+    assert_eq!(
+        (code, stdout.as_str()),
+        (0, "out/operations.csv\nout/speed_up-by-processors.svg\nout/report.html\n")
+    );
     assert_eq!(drawn(), before);
 }
 

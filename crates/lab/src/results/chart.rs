@@ -100,7 +100,7 @@ fn draw(area: &Area, drawing: &Drawing, plot: &Plot) -> Drawn {
         .label_style(font(14, INK))
         .axis_desc_style(font(15, INK))
         .x_desc(x.with_unit(&drawing.unit))
-        .y_desc(y.with_unit(""))
+        .y_desc(y.with_unit(&drawing.unit_up))
         .draw()?;
     let ideal = plot.x == "processors" && plot.y == "speed_up";
     if ideal {

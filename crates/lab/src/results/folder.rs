@@ -17,6 +17,7 @@ use crate::planning::plan::Plan;
 use crate::results::chart;
 use crate::results::console::table_text;
 use crate::results::host_times;
+use crate::results::operations;
 use crate::results::recordings;
 use crate::results::report;
 use crate::results::run_table::run_table;
@@ -99,10 +100,12 @@ impl Results {
         Ok(())
     }
 
-    /// Draws plots and report into a folder, with the host times in it; returns the names of the files.
+    /// Writes what is made of runs.csv into a folder: the table of operations, plots and report, with the host times in it; returns the names of the files.
     pub fn draw(&self, out: &Path) -> io::Result<Vec<String>> {
         let sweeps = self.sweeps();
-        let mut names = Vec::new();
+        let operations = operations::operations(&self.table, &sweeps).to_csv()?;
+        file::write(&out.join(operations::FILE), &operations)?;
+        let mut names = vec![operations::FILE.to_owned()];
         let mut drawings = Vec::new();
         let table = host_times::beside(&self.table, out);
         for plot in self.plots() {

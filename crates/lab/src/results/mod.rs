@@ -7,6 +7,7 @@ pub mod folder; // The files of a folder of results.
 pub mod host_times; // Columns of host times.
 pub mod live_page; // The page that follows runs.
 pub mod networks; // Network models compared.
+pub mod operations; // The operations of runs, a row each.
 pub mod origin; // The experiment file that results were made from.
 pub mod pareto; // The Pareto front of points.
 pub mod power_law; // Power laws fitted to points.

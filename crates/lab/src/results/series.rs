@@ -30,8 +30,10 @@ pub struct Drawing {
     pub series: Vec<Series>,
     /// Names along the horizontal axis, at 0, 1, 2, ..., if its column holds no numbers.
     pub categories: Vec<String>,
-    /// Unit along the horizontal axis; empty if there is none.
+    /// Unit of the cells along the horizontal axis; empty if there is none.
     pub unit: String,
+    /// The same of the vertical axis.
+    pub unit_up: String,
     /// Whether x is a swept field and not a figure of the runs.
     pub swept: bool,
     /// What the published points are called: the prefix of their column.
@@ -47,10 +49,11 @@ impl Drawing {
         let unit = along.unit(table);
         let numeric = unit.is_some();
         let unit = unit.unwrap_or_default().to_owned();
+        let unit_up = up.unit(table).unwrap_or_default().to_owned();
         let known = |publisher| table.columns.contains(&format!("{publisher}_{}", plot.y));
         let publisher = if known("published") { "published" } else { "paper" };
         let (series, categories) = (Vec::new(), Vec::new());
-        let mut drawing = Drawing { series, categories, unit, swept, publisher };
+        let mut drawing = Drawing { series, categories, unit, unit_up, swept, publisher };
         let paper = format!("{publisher}_{}", plot.y);
         for row in &table.rows {
             let x = if numeric {

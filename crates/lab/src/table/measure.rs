@@ -1,5 +1,6 @@
 //! What an axis of a plot shows: a column of the results, or the product of several.
 
+use crate::table::columns;
 use crate::table::runs_csv::Table;
 
 /// A column, or several with "*" between them, such as "patches*local_shots".
@@ -42,15 +43,22 @@ impl<'a> Measure<'a> {
         first.chain(letters).collect()
     }
 
-    /// Its name with its unit: the cells' own, or the one that the name ends in.
-    pub fn with_unit(&self, unit: &str) -> String {
-        let unit = match self.0[..] {
-            [column] if column.ends_with("_s") => "s",
-            _ => unit,
-        };
+    /// Its name with its unit: the cells' own, or the one that the columns are explained with. A count and a
+    /// number need none.
+    pub fn with_unit(&self, of_cells: &str) -> String {
+        let units: Vec<&str> = self.0.iter().filter_map(|column| unit(column)).collect();
+        let unit = if of_cells.is_empty() { units.join(" × ") } else { of_cells.to_owned() };
         let words = self.words();
         if unit.is_empty() { words } else { format!("{words} ({unit})") }
     }
+}
+
+/// The unit of a column that is shown beside its name.
+fn unit(column: &str) -> Option<&'static str> {
+    let by_name = || column.ends_with("_s").then_some("s");
+    columns::unit(column)
+        .or_else(by_name)
+        .filter(|unit| !["count", "number", "text"].contains(unit))
 }
 
 /// A column's name for people: without the field that holds it, and without its unit.
@@ -89,7 +97,10 @@ mod tests {
     fn names_are_told_in_words() {
         let label = |name| Measure::of(name).with_unit("");
         assert_eq!(label("time_s"), "Time (s)");
-        assert_eq!(label("speed_up"), "Speed-up");
+        assert_eq!(label("speed_up"), "Speed-up (ratio)");
+        assert_eq!(label("messages"), "Messages");
+        assert_eq!(label("message_bytes"), "Message bytes (B)");
+        assert_eq!(label("time_s*speed_up"), "Time × speed-up (s × ratio)");
         assert_eq!(label("stop.patch_threshold"), "Patch threshold");
         assert_eq!(label("host.cpu_s"), "Host CPU (s)");
         assert_eq!(label("operations.ray"), "Rays counted");
