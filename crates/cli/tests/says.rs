@@ -125,7 +125,7 @@ fn words_are_explained() {
 fn the_command_that_was_meant_is_named() {
     let project = Project::new(SWEEP);
     let folder = project.path("");
-    let short = "--set local_environments=4 --set processors=1 --viewer none --out out";
+    let short = "--set local_environments=4 --set processors=1 --viewer none --out out --replace";
     for (file, kind, commands) in [
         ("scenes/box.json", "a scene", 2),
         ("scenes/box.obj", "the geometry of a scene", 2),
