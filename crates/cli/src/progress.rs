@@ -46,6 +46,9 @@ struct Counts {
     /// The state of each run that is under way.
     counters: BTreeMap<usize, Counters>,
     estimator: Estimator,
+    /// The last estimate, and the second in which the next one is due.
+    left: Option<Left>,
+    next: f64,
     /// Where events are recorded.
     log: Option<File>,
 }
@@ -69,6 +72,8 @@ impl Progress {
             shots: BTreeMap::new(),
             counters: BTreeMap::new(),
             estimator: Estimator::of(&plan, threads),
+            left: None,
+            next: 0.0,
             log,
         };
         Progress { plan, bar, lines, counts: Mutex::new(counts) }
@@ -111,13 +116,16 @@ impl Progress {
         let runs = self.plan.runs.len();
         let message = format!("{ended} of {runs} runs");
         let elapsed = self.bar.elapsed().as_secs_f64();
-        let left = counts.estimator.left(elapsed);
-        let share = match left {
+        if elapsed >= counts.next {
+            (counts.left, counts.next) = (counts.estimator.left(elapsed), elapsed + 1.0);
+        }
+        let share = match counts.left {
             Some(Left { likely, .. }) => elapsed / (elapsed + likely).max(f64::MIN_POSITIVE),
             None => ended as f64 / runs as f64,
         };
         self.bar.set_position((share * (runs as u64 * STEPS) as f64) as u64);
-        let left = left.and_then(in_words).map_or(String::new(), |left| format!(", {left} left"));
+        let left =
+            counts.left.and_then(in_words).map_or(String::new(), |left| format!(", {left} left"));
         let due = self.bar.elapsed().as_secs() / BETWEEN_LINES;
         if self.lines && due > counts.lines {
             counts.lines = due;

@@ -257,8 +257,7 @@ fn a_machine_is_shown_and_measured() {
 #[test]
 fn a_model_without_contention_says_so() {
     let bench = |machine: &str, model: &str| {
-        let (code, text, _) =
-            virtwall(&root(), &["machine", "bench", machine, "--network", model]);
+        let (code, text, _) = virtwall(&root(), &["machine", "bench", machine, "--network", model]);
         assert_eq!(code, 0, "{machine}, {model}");
         text
     };

@@ -4,7 +4,9 @@
 //! first run of a problem waits for nearly all, the later ones for few. So both are measured apart, per shot, and
 //! a run that has not begun is expected to cost what those cost that are most like it.
 
-use crate::planning::plan::Plan;
+use std::collections::BTreeMap;
+
+use crate::planning::plan::{Plan, Run};
 use crate::run::runner::{Done, Event};
 
 /// What is known of a run in advance.
@@ -18,8 +20,24 @@ pub struct Known {
     pub processors: u32,
     /// Whether it uses shots of other runs.
     pub reuses: bool,
+    /// Whether its threshold is so high that it shoots little more than the lights.
+    pub lights_only: bool,
     /// Patches of its problem.
     pub patches: usize,
+}
+
+impl Known {
+    /// What is known of a run of a plan.
+    pub fn of(plan: &Plan, run: &Run) -> Known {
+        Known {
+            problem: run.problem,
+            machine: run.machine,
+            processors: run.point.processors,
+            reuses: run.point.reuse_shots,
+            lights_only: run.point.stop.patch_threshold.value() >= LIGHTS_ONLY,
+            patches: plan.problems[run.problem].problem.patches(),
+        }
+    }
 }
 
 /// Seconds that may be left.
@@ -36,6 +54,10 @@ pub struct Left {
 /// Estimates what is left.
 pub struct Estimator {
     runs: Vec<Track>,
+    /// By problem, its first run in the plan's order.
+    first: Vec<usize>,
+    /// By problem, whether one of its runs has made shots.
+    begun: Vec<bool>,
     /// By problem, what its runs had done at their last event.
     done: Vec<Done>,
     threads: usize,
@@ -83,8 +105,15 @@ const SHOOTING: Likeness = Likeness { problem: 0.001, machine: 1.0 };
 /// A run's own figures outweigh all others.
 const ITSELF: f64 = 1e6;
 
+/// The most steps of an estimate. Sweeps of very many runs that differ much have none.
+const MOST_STEPS: usize = 2_000_000;
+
 /// The power that the first run of a problem must have shot before its shots are extrapolated.
 const LEAST_POWER: f64 = 0.02;
+
+/// The least threshold per patch of such runs: half of the paper's. At lower ones reflected light is shot, too, and
+/// nothing tells how much until a run has ended.
+const LIGHTS_ONLY: f64 = 0.05;
 
 /// By what factor estimates may be off, of runs like those that were measured, and of problems of which none was.
 const KNOWN: f64 = 1.2;
@@ -99,19 +128,15 @@ impl Estimator {
     pub fn new(runs: impl IntoIterator<Item = Known>, threads: usize) -> Estimator {
         let runs: Vec<Track> = runs.into_iter().map(Track::new).collect();
         let problems = runs.iter().map(|run| run.known.problem + 1).max().unwrap_or(0);
-        Estimator { runs, done: vec![Done::default(); problems], threads: threads.max(1) }
+        let mut first = vec![0; problems];
+        runs.iter().enumerate().rev().for_each(|(i, run)| first[run.known.problem] = i);
+        let (done, begun) = (vec![Done::default(); problems], vec![false; problems]);
+        Estimator { runs, first, done, begun, threads: threads.max(1) }
     }
 
     /// The runs of a plan.
     pub fn of(plan: &Plan, threads: usize) -> Estimator {
-        let known = |run: &crate::planning::plan::Run| Known {
-            problem: run.problem,
-            machine: run.machine,
-            processors: run.point.processors,
-            reuses: run.point.reuse_shots,
-            patches: plan.problems[run.problem].problem.patches(),
-        };
-        Estimator::new(plan.runs.iter().map(known), threads)
+        Estimator::new(plan.runs.iter().map(|run| Known::of(plan, run)), threads)
     }
 
     /// Something has happened after `seconds`.
@@ -120,9 +145,8 @@ impl Estimator {
             Event::Found { run } => self.runs[run].state = State::Found,
             Event::Started { run } => {
                 let problem = self.runs[run].known.problem;
-                let ended = |other: &Track| {
-                    other.known.problem == problem && other.state == State::Ended
-                };
+                let ended =
+                    |other: &Track| other.known.problem == problem && other.state == State::Ended;
                 self.runs[run].is_first = !self.runs.iter().any(ended);
                 self.runs[run].state = State::UnderWay(seconds);
             }
@@ -139,6 +163,7 @@ impl Estimator {
         let run = &mut self.runs[run];
         let State::UnderWay(since) = run.state else { return };
         let before = std::mem::replace(&mut self.done[run.known.problem], done);
+        self.begun[run.known.problem] |= done.shots > 0;
         run.took = seconds - since;
         (run.shots, run.power) = (done.shots as f64, done.power);
         run.new += done.new.saturating_sub(before.new) as f64;
@@ -147,36 +172,47 @@ impl Estimator {
 
     /// What is left after `seconds`; `None` as long as nothing tells.
     pub fn left(&self, seconds: f64) -> Option<Left> {
-        let (mut sum, mut unsure, mut longest) = (0.0, 0.0, 0.0_f64);
+        // Seconds of each run, and whether none of its problem has begun.
+        let mut runs = Vec::new();
+        // Runs that wait and have the same in common with others cost the same.
+        let mut alike = BTreeMap::new();
         for run in &self.runs {
             let left = match run.state {
                 State::Ended | State::Found => continue,
-                State::Waiting => self.cost(run, self.shots(run)?)?,
+                State::Waiting => {
+                    let Known { problem, machine, processors, reuses, .. } = run.known;
+                    let kind = (problem, machine, processors, reuses, self.is_next(run));
+                    if let Some(&cost) = alike.get(&kind) {
+                        cost
+                    } else if alike.len() * self.runs.len() < MOST_STEPS {
+                        let cost = self.cost(run, self.shots(run)?)?;
+                        alike.insert(kind, cost);
+                        cost
+                    } else {
+                        return None;
+                    }
+                }
                 State::UnderWay(since) => {
-                    let all = self.shots(run)?.max(run.shots);
+                    let further = (self.shots(run)? - run.shots).max(0.0);
                     // Since its last event it has made shots, too.
                     let passed = seconds - since - run.took;
-                    (self.cost(run, all - run.shots)? - passed).max(0.0)
+                    (self.cost(run, further)? - passed).max(0.0)
                 }
             };
-            sum += left;
-            unsure += if self.is_begun(run.known.problem) { 0.0 } else { left };
-            longest = longest.max(left);
+            runs.push((left, !self.begun[run.known.problem]));
         }
-        let sure = sum - unsure;
-        // Threads share runs and help each other.
-        let time = |factor: f64, other: f64| {
-            ((sure * factor + unsure * other) / self.threads as f64).max(longest * factor.min(1.0))
+        // Threads share runs and help each other, but no run is divided.
+        let time = |known: f64, unknown: f64| {
+            let times = runs.iter().map(|(left, new)| left * if *new { unknown } else { known });
+            let (sum, longest) =
+                times.fold((0.0, 0.0_f64), |(sum, most), time| (sum + time, most.max(time)));
+            (sum / self.threads as f64).max(longest)
         };
         Some(Left {
             least: time(1.0 / KNOWN, 1.0 / UNKNOWN),
             likely: time(1.0, 1.0),
             most: time(KNOWN, UNKNOWN),
         })
-    }
-
-    fn is_begun(&self, problem: usize) -> bool {
-        self.runs.iter().any(|run| run.known.problem == problem && run.shots > 0.0)
     }
 
     /// All shots that a run will have made.
@@ -205,7 +241,7 @@ impl Estimator {
         }
         let of_problem = |other: &&Track| other.known.problem == run.known.problem;
         let begun = |other: &&Track| other.shots > 0.0;
-        if !run.known.reuses || !self.is_begun(run.known.problem) && self.is_next(run) {
+        if !run.known.reuses || self.is_next(run) {
             return 1.0;
         }
         let later = self.runs.iter().filter(of_problem).filter(begun).filter(|r| !r.is_first);
@@ -213,10 +249,10 @@ impl Estimator {
         if shots > 0.0 { new / shots } else { 0.0 }
     }
 
-    /// Whether it is the first run of its problem.
+    /// Whether it will be the first run of its problem.
     fn is_next(&self, run: &Track) -> bool {
-        let first = self.runs.iter().find(|other| other.known.problem == run.known.problem);
-        first.is_some_and(|first| std::ptr::eq(first, run))
+        let problem = run.known.problem;
+        !self.begun[problem] && std::ptr::eq(&raw const self.runs[self.first[problem]], run)
     }
 
     /// A quotient of two sums over runs, each of which counts the more the more it is like this one.
@@ -244,13 +280,13 @@ impl Track {
         Track { known, state: State::Waiting, took, shots, power, new, waited, is_first: false }
     }
 
-    /// All its shots, once it has ended; before, from the share of the emitted power that it has shot. When
-    /// that is all, what is left is reflected light, and nothing tells how much of it will be shot.
+    /// All its shots, once it has ended; before, from the share of the emitted power that it has shot, if it
+    /// shoots little else.
     fn all_shots(&self) -> Option<f64> {
         match self.state {
             State::Ended => Some(self.shots),
-            State::UnderWay(_) if (LEAST_POWER..1.0).contains(&self.power) => {
-                Some(self.shots / self.power)
+            State::UnderWay(_) if self.known.lights_only && self.power >= LEAST_POWER => {
+                Some(self.shots / self.power.min(1.0))
             }
             _ => None,
         }

@@ -3,17 +3,19 @@
 use std::fmt::Write as _;
 
 use crate::planning::plan::Plan;
+use crate::run::estimate::Known;
 use crate::run::runner::{Done, Event};
 
-/// The lines of a plan: its threads, and each run as `run PROBLEM MACHINE PROCESSORS REUSES PATCHES`.
+/// The lines of a plan: its threads, and each run as `run PROBLEM MACHINE PROCESSORS REUSES
+/// LIGHTS_ONLY PATCHES`.
 pub fn head(plan: &Plan, threads: usize) -> String {
     let mut text = format!("threads {threads}\n");
     for run in &plan.runs {
-        let patches = plan.problems[run.problem].problem.patches();
-        let (processors, reuses) = (run.point.processors, run.point.reuse_shots);
-        let (problem, machine) = (run.problem, run.machine);
+        let Known { problem, machine, processors, reuses, lights_only, patches } =
+            Known::of(plan, run);
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "run {problem} {machine} {processors} {reuses} {patches}");
+        let _ =
+            writeln!(text, "run {problem} {machine} {processors} {reuses} {lights_only} {patches}");
     }
     text
 }

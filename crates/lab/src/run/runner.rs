@@ -209,9 +209,9 @@ impl Shared<'_> {
                 return;
             };
             let shots = Arc::new(ShotSum::default());
-            (self.watch)(Event::Started { run: task.run });
             let answer = self.check_answer(&task);
             let clock = HostClock::start();
+            (self.watch)(Event::Started { run: task.run });
             let (ended, traced) = match answer {
                 Ok(()) => self.run(&task, &shots),
                 Err(message) => (Err(message), Ok(())),

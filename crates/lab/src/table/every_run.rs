@@ -59,9 +59,13 @@ pub const EVERY_RUN: &[Column] = &[
         always,
         |r| text(r.figures?.message_bytes),
     ),
-    column("busy_fraction", "ratio", "Share of their time that nodes compute. Empty on threads.", always, |r| {
-        fixed(r.figures?.busy_fraction?, 6)
-    }),
+    column(
+        "busy_fraction",
+        "ratio",
+        "Share of their time that nodes compute. Empty on threads.",
+        always,
+        |r| fixed(r.figures?.busy_fraction?, 6),
+    ),
     column(
         "energy_error",
         "ratio",
