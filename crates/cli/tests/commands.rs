@@ -253,7 +253,8 @@ fn on_threads_nothing_is_measured_in_virtual_time(project: &Project) {
         assert_eq!((code, stderr.as_str()), (0, ""), "{name}");
         assert!(text.contains("\nThreads of this host have no virtual time: "), "{text}");
         let read = |file: &str| fs::read_to_string(project.path("all").join(file)).unwrap();
-        let mut csv = csv::Reader::from_reader(read("runs.csv").into_bytes().as_slice());
+        let text = read("runs.csv");
+        let mut csv = csv::Reader::from_reader(text.as_bytes());
         let header = csv.headers().unwrap().clone();
         for row in csv.records().map(Result::unwrap) {
             for (column, cell) in header.iter().zip(&row) {

@@ -16,7 +16,7 @@ pub struct Known {
     pub problem: usize,
     /// Which machine it is on.
     pub machine: usize,
-    /// On so many processors.
+    /// Its processors.
     pub processors: u32,
     /// Whether it uses shots of other runs.
     pub reuses: bool,
@@ -223,7 +223,7 @@ impl Estimator {
         own.or_else(|| Some(self.mean(run, SHOOTING, by_size)? * size(run)))
     }
 
-    /// Seconds that a run needs for so many shots more.
+    /// Seconds that a run needs for this number of further shots.
     fn cost(&self, run: &Track, shots: f64) -> Option<f64> {
         let simulating = self.mean(run, SIMULATING, |other| {
             (other.shots > 0.0).then_some(((other.took - other.waited).max(0.0), other.shots))
