@@ -21,6 +21,7 @@ use crate::results::operations;
 use crate::results::recordings;
 use crate::results::report;
 use crate::results::run_table::run_table;
+use crate::results::without_time;
 use crate::run::runner::{Endings, Options};
 use crate::run::saved::Saved;
 use crate::table::cheapest;
@@ -108,7 +109,9 @@ impl Results {
         let mut names = vec![operations::FILE.to_owned()];
         let mut drawings = Vec::new();
         let table = host_times::beside(&self.table, out);
+        let note = without_time::note(&self.manifest);
         for plot in self.plots() {
+            let plot = if note.is_some() { without_time::titled(&plot, &table) } else { plot };
             let svg = chart::svg(&table, &sweeps, &plot);
             let name = format!("{}.svg", plot.stem());
             file::write(&out.join(&name), svg.as_bytes())?;
@@ -129,7 +132,9 @@ impl Results {
     pub fn text(&self) -> String {
         let sweeps = self.sweeps();
         let base = self.manifest["experiment"]["speed_up_over"].as_u64().unwrap_or(1);
-        table_text(&self.table, &sweeps, base) + &cheapest::text(&self.table, &sweeps)
+        let note = without_time::note(&self.manifest);
+        let note = note.map_or(String::new(), |note| format!("\n{note}\n"));
+        table_text(&self.table, &sweeps, base) + &cheapest::text(&self.table, &sweeps) + &note
     }
 
     /// How many runs failed.
@@ -187,12 +192,13 @@ fn manifest(plan: &Plan, table: &Table, on: On) -> io::Result<Value> {
     Ok(manifest)
 }
 
-/// Writes host times, in a file of their own: results do not depend on them.
+/// Writes host times and what made the results, in a file of their own: results do not depend on them.
 pub fn write_host_times(
     out: &Path,
     endings: &Endings,
     seconds: f64,
     threads: usize,
+    provenance: &Value,
 ) -> io::Result<()> {
     let shots = json!({
         "asked": endings.shots.asked(),
@@ -210,7 +216,9 @@ pub fn write_host_times(
         "set_up_s": of_runs(&|run| run.set_up_s),
         "clock_s": of_runs(&|run| run.clock_s),
     });
-    let times = json!({ "threads": threads, "seconds": seconds, "shots": shots, "runs": runs });
+    let times = json!({
+        "provenance": provenance, "threads": threads, "seconds": seconds, "shots": shots, "runs": runs,
+    });
     file::make_folder(out)?;
     file::write(&out.join(host_times::FILE), pretty(&times)?.as_bytes())
 }

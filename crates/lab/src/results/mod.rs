@@ -18,3 +18,4 @@ pub mod scale; // The axes of a plot.
 pub mod series; // The points and lines of a plot.
 pub mod summary; // Simulated figures compared with published ones.
 pub mod waste; // Warnings of runs that made many more shots than one processor.
+pub mod without_time; // Results without virtual time.
