@@ -141,13 +141,17 @@ impl Stage {
     }
 
     /// The light of the run at each of these times, in rising order; after its end there is no other.
-    /// And when it ends.
+    /// And when it ends. Calls `on_shot` after each shot.
     ///
     /// # Errors
     /// Why the run did not end, or that there is none.
-    pub fn light_at(&self, times: &[Time]) -> Result<(Vec<Light>, Time), String> {
+    pub fn light_at(
+        &self,
+        times: &[Time],
+        on_shot: impl Fn() + Send + Sync + 'static,
+    ) -> Result<(Vec<Light>, Time), String> {
         let Some(staged) = &self.run else { return Err("no run lights it".to_owned()) };
-        let run = simulator::run(&self.problem, &staged.point, &staged.kept, Arc::new(|| ()));
+        let run = simulator::run(&self.problem, &staged.point, &staged.kept, Arc::new(on_shot));
         simulator::light_at(&run, &staged.point, &staged.machine, times)
     }
 }
