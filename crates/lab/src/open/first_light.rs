@@ -31,22 +31,14 @@ pub struct FirstLight {
 impl FirstLight {
     /// Casts rays from the lamps of a scene; none if it has no lamps.
     pub fn of(scene: &Scene) -> Option<FirstLight> {
-        let powers: Vec<f64> = scene.polygons.iter().map(|polygon| power(scene, polygon)).collect();
-        let all: f64 = powers.iter().sum();
-        if !(all > 0.0 && all.is_finite()) {
+        let lamps = lamps(scene, POINTS);
+        if lamps.is_empty() {
             return None;
         }
         let rays = Rays::new(scene)?;
         let mut found = FirstLight::default();
-        let (mut lamp, mut below) = (0, 0.0);
-        for point in 0..POINTS {
-            // The lamp in which this part of the power is.
-            let wanted = all * (point as f64 + 0.5) / POINTS as f64;
-            while lamp + 1 < powers.len() && below + powers[lamp] <= wanted {
-                below += powers[lamp];
-                lamp += 1;
-            }
-            rays.cast_from(lamp as u32, point, false, |end| found.count(&end));
+        for (point, lamp) in lamps.into_iter().enumerate() {
+            rays.cast_from(lamp, point, false, |end| found.count(&end));
         }
         let met = found.fronts + found.backs;
         let share = |count: f64| count / (met + found.leaves);
@@ -67,6 +59,26 @@ impl FirstLight {
             RayEnd::Leaves => self.leaves += 1.0,
         }
     }
+}
+
+/// For each of `parts` equal parts of the power of the lamps, the lamp in whose light it begins; none without
+/// light.
+pub fn lamps(scene: &Scene, parts: usize) -> Vec<u32> {
+    let powers: Vec<f64> = scene.polygons.iter().map(|polygon| power(scene, polygon)).collect();
+    let all: f64 = powers.iter().sum();
+    if !(all > 0.0 && all.is_finite()) {
+        return Vec::new();
+    }
+    let (mut lamp, mut below) = (0, 0.0);
+    let of_part = |part: usize| {
+        let wanted = all * (part as f64 + 0.5) / parts as f64;
+        while lamp + 1 < powers.len() && below + powers[lamp] <= wanted {
+            below += powers[lamp];
+            lamp += 1;
+        }
+        lamp as u32
+    };
+    (0..parts).map(of_part).collect()
 }
 
 fn power(scene: &Scene, polygon: &Polygon) -> f64 {
@@ -124,22 +136,25 @@ impl Rays {
         let from = self.point(face, even(number));
         let normal = if turned { -face.plane.normal } else { face.plane.normal };
         let [u, v, w] = self.hemisphere.frame(from, normal);
-        let mut work = Work::NONE;
         for way in &self.hemisphere.directions {
-            let ray = Ray::new(from, (u * way.x + v * way.y + w * way.z).normalize());
-            let met = cast(&self.space, &self.whole, &ray, polygon, &mut work);
-            end(match met {
-                End::Hit { polygon, distance } => {
-                    let front = self.space.facets.faces(polygon, &ray);
-                    RayEnd::Meets { polygon, front, distance }
-                }
-                End::Leaves(_) => RayEnd::Leaves,
-            });
+            end(self.cast(polygon, from, (u * way.x + v * way.y + w * way.z).normalize()));
+        }
+    }
+
+    /// Casts a ray from a point of a polygon.
+    pub fn cast(&self, polygon: u32, from: DVec3, way: DVec3) -> RayEnd {
+        let (ray, mut work) = (Ray::new(from, way), Work::NONE);
+        match cast(&self.space, &self.whole, &ray, polygon, &mut work) {
+            End::Hit { polygon, distance } => {
+                let front = self.space.facets.faces(polygon, &ray);
+                RayEnd::Meets { polygon, front, distance }
+            }
+            End::Leaves(_) => RayEnd::Leaves,
         }
     }
 
     /// A point of a convex polygon, for two numbers from 0 to 1: equal areas are equally likely.
-    fn point(&self, polygon: &Polygon, [a, b]: [f64; 2]) -> DVec3 {
+    pub fn point(&self, polygon: &Polygon, [a, b]: [f64; 2]) -> DVec3 {
         let corners: Vec<DVec3> = self.space.scene.corners(polygon).collect();
         let triangles = || corners[1..].windows(2).map(|pair| [corners[0], pair[0], pair[1]]);
         let area = |[p, q, r]: [DVec3; 3]| (q - p).cross(r - p).length();

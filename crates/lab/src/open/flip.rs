@@ -4,14 +4,28 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use config::Fault;
+use radiosity::glam::DVec3;
 use radiosity::{ObjFile, Scene, turn_faces};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 
 use crate::files::find::{FileKind, find_here};
-use crate::open::first_light::{RayEnd, Rays, emits};
+use crate::open::first_light::{RayEnd, Rays, emits, lamps};
 use crate::open::scene::{Read, read, read_file};
 
-/// Points of a polygon that light is sent from.
+/// Points of a lamp that say whether its light meets something.
 const POINTS: usize = 4;
+
+/// Paths of light from lamps, for each face.
+const PATHS: usize = 64;
+
+/// How often a path is reflected.
+const BOUNCES: usize = 16;
+
+/// How often light has to meet a face: rays along edges may err.
+const LEAST: u32 = 8;
+
+const SEED: u64 = 1996;
 
 /// An OBJ file, repaired.
 pub struct Flipped {
@@ -77,23 +91,41 @@ fn turned(mut file: ObjFile) -> Result<Vec<Option<bool>>, Fault> {
     file.objects = (0..count).map(|number| number.to_string()).collect();
     let scene = file.scene().map_err(Fault::complete)?.0;
     let Some(rays) = Rays::new(&scene) else { return Ok(vec![None; count]) };
-    Ok(Flood::new(&rays, count).all())
-}
-
-/// Light on its way from the lamps to ever more faces.
-struct Flood<'a> {
-    rays: &'a Rays,
-    /// For each face, whether it is turned over, once light has reached it.
-    turned: Vec<Option<bool>>,
-    /// Polygons that light has reached.
-    lit: BTreeSet<u32>,
-}
-
-impl Flood<'_> {
-    fn new(rays: &Rays, faces: usize) -> Flood<'_> {
-        Flood { rays, turned: vec![None; faces], lit: BTreeSet::new() }
+    let random = ChaCha8Rng::seed_from_u64(SEED);
+    let mut paths = Paths { rays: &rays, random, hits: vec![[0; 2]; count] };
+    let all = 0..scene.polygons.len() as u32;
+    let lamp = |number: &u32| emits(&scene, &scene.polygons[*number as usize]);
+    let away: BTreeSet<u32> =
+        all.clone().filter(lamp).filter(|&lamp| paths.shines_away(lamp)).collect();
+    for lamp in lamps(&scene, count * PATHS) {
+        paths.follow(lamp, !away.contains(&lamp));
     }
+    let mut turned: Vec<Option<bool>> = paths.hits.iter().map(|&hits| decide(hits)).collect();
+    for polygon in all {
+        let face = paths.face(polygon);
+        if lamp(&polygon) {
+            turned[face] = Some(away.contains(&polygon));
+        } else if scene.material_of(polygon).two_sided {
+            turned[face] = turned[face].map(|_| false);
+        }
+    }
+    Ok(turned)
+}
 
+/// Whether a face is to be turned over that so many rays met on its front and on its back.
+fn decide([front, back]: [u32; 2]) -> Option<bool> {
+    (front + back >= LEAST).then_some(back > front)
+}
+
+/// Paths of light, which both sides of all faces reflect.
+struct Paths<'a> {
+    rays: &'a Rays,
+    random: ChaCha8Rng,
+    /// For each face, how often light met its front and its back.
+    hits: Vec<[u32; 2]>,
+}
+
+impl Paths<'_> {
     fn scene(&self) -> &Scene {
         &self.rays.space.scene
     }
@@ -102,59 +134,50 @@ impl Flood<'_> {
         self.scene().polygons[polygon as usize].object as usize
     }
 
-    fn all(mut self) -> Vec<Option<bool>> {
-        let polygons = 0..self.scene().polygons.len() as u32;
-        let lamp = |&number: &u32| emits(self.scene(), &self.scene().polygons[number as usize]);
-        let mut sources: Vec<u32> = polygons.filter(lamp).collect();
-        for &lamp in &sources {
-            let wrong = !self.meets(lamp, false) && self.meets(lamp, true);
-            let face = self.face(lamp);
-            self.turned[face] = Some(wrong);
-        }
-        self.lit.extend(&sources);
-        while !sources.is_empty() {
-            sources = self.next(&sources);
-        }
-        self.turned
-    }
-
-    /// Whether light from a polygon meets another one.
-    fn meets(&self, polygon: u32, turned: bool) -> bool {
-        let mut any = false;
-        for point in 0..POINTS {
-            let meets = |end| any |= matches!(end, RayEnd::Meets { .. });
-            self.rays.cast_from(polygon, point, turned, meets);
-        }
-        any
-    }
-
-    /// Sends light from polygons; returns those that no light had reached before.
-    fn next(&mut self, sources: &[u32]) -> Vec<u32> {
-        // For each face, how much more light comes from its front than from its back.
-        let mut front_less_back = vec![0.0; self.turned.len()];
-        let mut reached = BTreeSet::new();
-        for &source in sources {
-            let turned = self.turned[self.face(source)] == Some(true);
-            let power = self.scene().polygons[source as usize].area;
+    /// Whether all light from the front of a lamp leaves the scene, but not that from its back.
+    fn shines_away(&self, lamp: u32) -> bool {
+        let meets = |turned| {
+            let mut any = false;
             for point in 0..POINTS {
-                self.rays.cast_from(source, point, turned, |end| {
-                    if let RayEnd::Meets { polygon, front, .. } = end {
-                        front_less_back[self.face(polygon)] += if front { power } else { -power };
-                        reached.insert(polygon);
-                    }
-                });
+                let end = |end| any |= matches!(end, RayEnd::Meets { .. });
+                self.rays.cast_from(lamp, point, turned, end);
+            }
+            any
+        };
+        !meets(false) && meets(true)
+    }
+
+    /// Follows light from the front or the back of a lamp.
+    fn follow(&mut self, lamp: u32, mut front: bool) {
+        let place = [self.random.random::<f64>(), self.random.random::<f64>()];
+        let mut polygon = lamp;
+        let mut from = self.rays.point(&self.scene().polygons[lamp as usize], place);
+        for _ in 0..BOUNCES {
+            let normal = self.scene().polygons[polygon as usize].plane.normal;
+            let way = self.way(if front { normal } else { -normal });
+            let RayEnd::Meets { polygon: met, front: met_front, distance } =
+                self.rays.cast(polygon, from, way)
+            else {
+                return;
+            };
+            let face = self.face(met);
+            self.hits[face][usize::from(!met_front)] += 1;
+            (polygon, front) = (met, met_front);
+            let plane = self.scene().polygons[met as usize].plane;
+            let point = from + way * distance;
+            from = point - plane.normal * (plane.normal.dot(point) - plane.offset);
+        }
+    }
+
+    /// A random direction, cosine-weighted about a normal.
+    fn way(&mut self, normal: DVec3) -> DVec3 {
+        let (u, v) = normal.any_orthonormal_pair();
+        loop {
+            let [x, y] = [(); 2].map(|()| 2.0 * self.random.random::<f64>() - 1.0);
+            let height = 1.0 - x * x - y * y;
+            if height > 0.0 {
+                return (u * x + v * y + normal * height.sqrt()).normalize();
             }
         }
-        let new: Vec<u32> = reached.difference(&self.lit).copied().collect();
-        for &polygon in &new {
-            let (face, two_sided) = (self.face(polygon), self.is_two_sided(polygon));
-            self.turned[face].get_or_insert(front_less_back[face] < 0.0 && !two_sided);
-        }
-        self.lit.extend(&new);
-        new
-    }
-
-    fn is_two_sided(&self, polygon: u32) -> bool {
-        self.scene().material_of(polygon).two_sided
     }
 }
