@@ -112,7 +112,7 @@ fn turned(mut file: ObjFile) -> Result<Vec<Option<bool>>, Fault> {
     Ok(turned)
 }
 
-/// Whether a face is to be turned over that so many rays met on its front and on its back.
+/// Whether a face is to be turned over by the numbers of rays that met its front and its back.
 fn decide([front, back]: [u32; 2]) -> Option<bool> {
     (front + back >= LEAST).then_some(back > front)
 }
