@@ -16,6 +16,7 @@ mod live;
 mod machine;
 mod man;
 mod named;
+mod paths;
 mod plot;
 mod progress;
 mod provenance;
@@ -57,9 +58,9 @@ enum Command {
     Export(export::Arguments),
     /// Draw the plots and the report of saved results again
     Plot(plot::Arguments),
-    /// Validate experiments, machines, traces, scenes and OBJ files; print what each is
+    /// Validate experiments, machines, traces, scenes, OBJ and MTL files; print what each is
     Check(check::Arguments),
-    /// Make or show a scene
+    /// Make, show or repair a scene
     #[command(subcommand)]
     Scene(scene::Command),
     /// Show a machine, or measure its network

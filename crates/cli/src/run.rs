@@ -28,7 +28,7 @@ pub struct Arguments {
     experiment: String,
     /// Folder for the results [default: results/<name of the experiment file>, followed by what --set and
     /// --network change]
-    #[arg(long, value_name = "DIR")]
+    #[arg(short, long = "output", alias = "out", value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
     threads: Threads,
@@ -157,7 +157,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     if let Some(difference) = difference(&plan, on, &out).filter(|_| !arguments.replace) {
         return Err(Exit::bad_input(format!(
             "{place}: has results of another configuration: {difference}; expected the same, another folder by \
-             --out, or --replace"
+             --output, or --replace"
         )));
     }
     let claim = Claim::of(&out).map_err(Exit::bad_input)?;

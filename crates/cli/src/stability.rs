@@ -18,7 +18,7 @@ pub struct Arguments {
     cases: Option<PathBuf>,
     /// Folder for the page, its table and its drawing [default: results/stability if all cases run,
     /// else none]
-    #[arg(long, value_name = "DIR")]
+    #[arg(short, long = "output", alias = "out", value_name = "DIR")]
     out: Option<PathBuf>,
 }
 

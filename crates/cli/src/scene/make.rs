@@ -22,7 +22,7 @@ pub struct Arguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(..=i64::from(MOST_TABLES)))]
     tables: Option<u32>,
     /// Folder for the OBJ and MTL files
-    #[arg(long, value_name = "DIR", default_value = "scenes")]
+    #[arg(short, long = "output", alias = "out", value_name = "DIR", default_value = "scenes")]
     out: PathBuf,
 }
 
