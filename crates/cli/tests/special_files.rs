@@ -197,6 +197,7 @@ fn what_is_there_and_no_regular_file_is_called_so() {
         &["run", "/dev/zero"],
         &["machine", "show", "p.json"],
         &["check", "p.json"],
+        &["stability", "p.json"],
         &machine,
         &reference,
         &compare,
@@ -243,4 +244,15 @@ fn small_numbers_are_shown_with_their_digits() {
     let (code, stdout, stderr) = output(&project, &picture);
     assert_eq!(code, 0, "{stderr}");
     assert!(stdout.contains("middle grey is 1.0000e-30 W/m²"), "{stdout}");
+}
+
+#[test]
+fn no_frame_replaces_a_pipe() {
+    let project = Project::new(&SWEEP.replace("[64, 256]", "64"));
+    pipe(&project, "x-003.png");
+    let arguments = ["render", "experiments/x.json", "--output", "x.png", "--frames", "4"];
+    let (code, stdout, stderr) = output(&project, &arguments);
+    let refused = "error: x-003.png: cannot be written: not a regular file\n";
+    assert_eq!((code, stdout.as_str(), stderr.as_str()), (2, "", refused));
+    assert!(is_pipe(&project, "x-003.png") && !project.path("x-001.png").exists());
 }
