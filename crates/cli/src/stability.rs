@@ -64,6 +64,9 @@ fn place(folder: &Path, name: &str) -> Result<PathBuf, Exit> {
     if let Some(found) = [path, in_folder].into_iter().find(|path| shipped::is_file(path)) {
         return Ok(found);
     }
+    if Path::new(name).exists() && !Path::new(name).is_dir() {
+        return Err(Exit::bad_input(format!("{name}: not a regular file")));
+    }
     let names = cases(folder)?;
     let names: Vec<&str> = names.iter().filter_map(|path| path.file_stem()?.to_str()).collect();
     Err(Exit::bad_input(format!("unknown case \"{name}\" (there are: {})", names.join(", "))))

@@ -170,6 +170,8 @@ impl<'a> Renderer<'a> {
 
     /// Numbered pictures, all with the exposure of the last one.
     fn animation(&self, frames: u32, output: &Path) -> Result<String, Exit> {
+        let mut paths = (1..=frames).map(|frame| numbered(output, frame, frames));
+        paths.try_for_each(|path| lab::target(&path).map(drop)).map_err(Exit::bad_input)?;
         let (light, end) = self.light_at(&[Time::MAX])?;
         let exposure = self.exposure_of(&light[0])?;
         let times: Vec<Time> = (0..frames).map(|frame| part(end, frame, frames - 1)).collect();

@@ -6,7 +6,7 @@ use clap::Args;
 use scenemaker::{MOST_TABLES, SceneKind, SceneText};
 
 use crate::exit::Exit;
-use crate::files::make_folder;
+use crate::files::{check_writable, make_folder, write};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -31,10 +31,12 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let out = &arguments.out;
     make_folder(out, "scenes")?;
     let text = text(arguments)?;
+    let path = |ending: &str| out.join(format!("{}.{ending}", text.name));
+    let files = [(path("obj"), &text.obj), (path("mtl"), &text.mtl)];
+    files.iter().try_for_each(|(path, _)| check_writable(path))?;
     let mut output = String::new();
-    for (ending, contents) in [("obj", &text.obj), ("mtl", &text.mtl)] {
-        let path = out.join(format!("{}.{ending}", text.name));
-        lab::write_file(&path, contents.as_bytes()).map_err(Exit::failure)?;
+    for (path, contents) in files {
+        write(&path, contents)?;
         output += &format!("{}\n", path.display());
     }
     Ok(output)

@@ -64,7 +64,13 @@ pub fn meshed(open: &OpenScene) -> (Space, LocalEnvironment) {
 
 fn numbers(open: &OpenScene, whole: &LocalEnvironment) -> String {
     let scene = &open.scene;
-    let world = |local: Rgb| (local + scene.origin).to_array().map(|c| decimal(c, 2)).join(" ");
+    let world = |local: Rgb| {
+        let place = local + scene.origin;
+        // What adding and subtracting the origin leaves of a zero.
+        let rounding = 2.0 * f64::EPSILON * scene.origin.abs().max_element();
+        let exact = |c: f64| if c.abs() <= rounding { 0.0 } else { c };
+        place.to_array().map(|c| decimal(exact(c), 2)).join(" ")
+    };
     let power = scene.emitted_power().to_array().map(|watts| decimal(watts, 1)).join(" ");
     let lights = scene.polygons.iter().filter(|p| scene.material(p).emission != Rgb::ZERO).count();
     let [x, y, z] = open.cells;
@@ -84,10 +90,8 @@ fn numbers(open: &OpenScene, whole: &LocalEnvironment) -> String {
             format!("{fronts} falls on fronts, {backs} on backs, {leaves} leaves the scene");
         line("light of lamps", falls);
     }
-    line(
-        "patch size",
-        format!("{:.3} m, of lights {:.3} m", open.patch_size, open.emitter_patch_size),
-    );
+    let [size, of_lights] = [open.patch_size, open.emitter_patch_size].map(|m| decimal(m, 3));
+    line("patch size", format!("{size} m, of lights {of_lights} m"));
     line("patches", format!("{} before any cut", whole.patches.len()));
     line("cells", format!("{x} x {y} x {z}"));
     for medium in &scene.media {

@@ -9,7 +9,7 @@ use radiosity::{ObjFile, read_regular_file};
 use scenemaker::{FLOORS, SceneText, make_building};
 
 use crate::files::digest::FileDigest;
-use crate::files::find::Found;
+use crate::files::find::{Found, missing};
 use crate::open::first_light::FirstLight;
 use crate::open::lighting::{self, bright_ambients};
 use crate::open::scene_file::SceneFile;
@@ -66,8 +66,8 @@ pub fn read(found: &Found, reader: Reader) -> Result<(Read, Option<SceneFile>), 
             let name = file.obj.as_deref().unwrap_or_default();
             let folder = path.parent().unwrap_or(Path::new(""));
             let obj = folder.join(name);
-            if !shipped::is_file(&obj) {
-                let message = format!("\"{name}\": no such file in {}", folder.display());
+            if let Some(missing) = missing(&obj) {
+                let message = format!("\"{name}\": {missing} in {}", folder.display());
                 return Err(document.fault(&Place::of("obj"), message));
             }
             Read::of(&obj, &label.with_file_name(name), reader)?

@@ -90,8 +90,9 @@ impl Results {
         }
         file::make_folder(out)?;
         let before = figures(&out.join("manifest.json"));
-        file::write(&out.join("runs.csv"), &self.table.to_csv()?)?;
+        // The manifest first: a table without one is not from a run.
         file::write(&out.join("manifest.json"), pretty(&self.manifest)?.as_bytes())?;
+        file::write(&out.join("runs.csv"), &self.table.to_csv()?)?;
         let names = self.draw(out)?;
         let stale = before.iter().filter(|name| !names.contains(name));
         stale.into_iter().try_for_each(|name| file::remove(&out.join(name)))?;
