@@ -132,7 +132,7 @@ fn files_that_no_run_wrote_are_not_replaced() {
     let project = Project::new(SWEEP);
     let run = ["run", "experiments/x.json", "--quiet", "--out"];
     let more = |more: &[&str]| output(&project, &[&run[..], more].concat());
-    let expected = "another folder by --out, or --replace\n";
+    let expected = "another folder by --output, or --replace\n";
     let wrote = "expected results that `run` wrote";
     for name in ["runs.csv", "report.html", "operations.csv", "speed_up-by-processors.svg"] {
         let file = format!("{name}-there/{name}");

@@ -403,7 +403,7 @@ fn files_that_an_experiment_names_are_refused_at_their_own_places() {
             "scenes/box.json",
             r#"{"obj": "box.obj", "patch_size": "1 m", "cut": "4x1x1"}"#,
             "scenes/box.json:1: cut: unknown field \"cut\", did you mean \"cuts\"? (there are: \
-             $schema, title, obj, made, patch_size, emitter_patch_size, cells, cuts, up, clamp_reflectance, materials, objects, media, source)",
+             $schema, title, obj, made, unit, patch_size, emitter_patch_size, cells, cuts, up, clamp_reflectance, two_sided, materials, objects, media, source)",
         ),
         (
             "scenes/box.json",
