@@ -15,8 +15,9 @@ pub struct Arguments {
 
 /// Draws; returns the paths of the files.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
-    let results = Results::read(&arguments.results)?;
-    let names = results.draw(&arguments.results).map_err(Exit::failure)?;
+    let mut results = Results::read(&arguments.results)?;
+    eprintln!("{}", results.take_present_plots(&arguments.results)?);
+    let names = results.present_in(&arguments.results).map_err(Exit::failure)?;
     let lines = names.iter().map(|name| format!("{}\n", arguments.results.join(name).display()));
     Ok(lines.collect())
 }

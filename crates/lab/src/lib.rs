@@ -16,7 +16,7 @@ mod run; // carries out the runs of a plan on worker threads
 mod table; // the table of results: its columns, and what is read from it
 
 pub use engine::simulator::{Light, On, Solved};
-pub use experiment::fields::Plot;
+pub use experiment::plot::Plot;
 pub use experiment::schema::experiment_schema;
 pub use files::digest::{sealed, unsealed};
 pub use files::file::{check_writable, write as write_file};

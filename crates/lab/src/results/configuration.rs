@@ -33,10 +33,13 @@ pub fn difference(plan: &Plan, on: On, out: &Path) -> Option<String> {
     let there = Document::read(&out.join("manifest.json")).ok()?.value;
     let files = plan.files.iter().map(|file| (file.label.clone(), file.sha256.clone().into()));
     let files: Map<String, Value> = files.collect();
-    let named = |place: &str, here: &Value, there: &Value| {
-        first_difference(place, here, there)
-            .map(|(place, here, there)| format!("{place} is {there} there and {here} here"))
-    };
+    difference_of_experiments(&plan.resolved, &there["experiment"])
+        .or_else(|| named("on", &serde_json::json!(on), &there["on"]))
+        .or_else(|| named("SHA-256 of file ", &Value::Object(files), &there["files"]))
+}
+
+/// The first difference of two experiments with all defaults, besides what only presents results, in words.
+pub fn difference_of_experiments(here: &Value, there: &Value) -> Option<String> {
     let without = |experiment: &Value| {
         let mut experiment = experiment.clone();
         let fields = experiment.as_object_mut();
@@ -45,9 +48,12 @@ pub fn difference(plan: &Plan, on: On, out: &Path) -> Option<String> {
             .for_each(|fields| fields.retain(|key, _| !UNSWEPT.contains(&key.as_str())));
         experiment
     };
-    named("", &without(&plan.resolved), &without(&there["experiment"]))
-        .or_else(|| named("on", &serde_json::json!(on), &there["on"]))
-        .or_else(|| named("SHA-256 of file ", &Value::Object(files), &there["files"]))
+    named("", &without(here), &without(there))
+}
+
+fn named(place: &str, here: &Value, there: &Value) -> Option<String> {
+    first_difference(place, here, there)
+        .map(|(place, here, there)| format!("{place} is {there} there and {here} here"))
 }
 
 /// The place of the first difference of two values, and both values there.

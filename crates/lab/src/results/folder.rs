@@ -9,7 +9,7 @@ use serde_json::{Map, Value, json};
 use viewer::ReportParts;
 
 use crate::engine::simulator::On;
-use crate::experiment::fields::Plot;
+use crate::experiment::plot::Plot;
 use crate::files::digest::sha256;
 use crate::files::file::{self, PLAIN, is_plain};
 use crate::host::host_clock::HostTimes;
@@ -18,6 +18,7 @@ use crate::results::chart;
 use crate::results::console::table_text;
 use crate::results::host_times;
 use crate::results::recordings;
+use crate::results::repeats_csv;
 use crate::results::report;
 use crate::results::run_table::run_table;
 use crate::run::runner::{Endings, Options};
@@ -87,16 +88,27 @@ impl Results {
             return Err(io::Error::other(message));
         }
         file::make_folder(out)?;
-        let before = figures(&out.join("manifest.json"));
         file::write(&out.join("runs.csv"), &self.table.to_csv()?)?;
-        file::write(&out.join("manifest.json"), pretty(&self.manifest)?.as_bytes())?;
-        let names = self.draw(out)?;
-        let stale = before.iter().filter(|name| !names.contains(name));
-        stale.into_iter().try_for_each(|name| file::remove(&out.join(name)))?;
+        self.present_in(out)?;
         if self.failures() == 0 {
             Saved::in_folder(out).forget()?;
         }
         Ok(())
+    }
+
+    /// Writes the manifest if it is another one, and draws; removes figures of before that are no longer asked for.
+    /// Returns the names of the files drawn.
+    pub fn present_in(&self, out: &Path) -> io::Result<Vec<String>> {
+        let path = out.join("manifest.json");
+        let before = figures(&path);
+        let same = Document::read(&path).is_ok_and(|document| document.value == self.manifest);
+        if !same {
+            file::write(&path, pretty(&self.manifest)?.as_bytes())?;
+        }
+        let names = self.draw(out)?;
+        let stale = before.iter().filter(|name| !names.contains(name));
+        stale.into_iter().try_for_each(|name| file::remove(&out.join(name)))?;
+        Ok(names)
     }
 
     /// Draws plots and report into a folder, with the host times in it; returns the names of the files.
@@ -105,15 +117,20 @@ impl Results {
         let mut names = Vec::new();
         let mut drawings = Vec::new();
         let table = host_times::beside(&self.table, out);
-        for plot in self.plots() {
-            let svg = chart::svg(&table, &sweeps, &plot);
+        let plots = self.plots();
+        for plot in &plots {
+            let svg = chart::svg(&table, &sweeps, plot);
             let name = format!("{}.svg", plot.stem());
             file::write(&out.join(&name), svg.as_bytes())?;
             names.push(name);
             // The report is the same on every host.
-            if !host_times::shown_in(&plot) {
+            if !host_times::shown_in(plot) {
                 drawings.push(svg);
             }
+        }
+        if let Some(summary) = repeats_csv::summary(&table, &sweeps, &plots) {
+            file::write(&out.join(repeats_csv::FILE), &summary.to_csv()?)?;
+            names.push(repeats_csv::FILE.to_owned());
         }
         let recorded = self.recorded.as_ref();
         let html = report::html(&self.manifest, &self.table, &sweeps, &drawings, recorded);
@@ -144,12 +161,13 @@ impl Results {
     }
 }
 
-/// The files of the figures of the results with this manifest; none if it cannot be read.
+/// The files of the figures of the results with this manifest, and of their numbers; none if it cannot be read.
 fn figures(manifest: &Path) -> Vec<String> {
     let Ok(document) = Document::read(manifest) else { return Vec::new() };
     let plots = read::<Vec<Plot>>(&document.value["experiment"]["plots"]).unwrap_or_default();
     let stems = plots.iter().map(Plot::stem).filter(|stem| is_plain(stem));
-    stems.map(|stem| format!("{stem}.svg")).collect()
+    let summary = plots.iter().any(|plot| plot.over.is_some()).then(|| repeats_csv::FILE.to_owned());
+    stems.map(|stem| format!("{stem}.svg")).chain(summary).collect()
 }
 
 /// Provenance of the results: everything that decides them, and nothing of the host.

@@ -1,9 +1,5 @@
 //! An axis of a plot: linear, logarithmic, or names side by side.
 
-use std::ops::Range;
-
-use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
-
 /// Approximate number of ticks of a linear axis.
 const TICKS: f64 = 7.0;
 /// Largest number of values that can each have a tick.
@@ -67,6 +63,7 @@ impl Scale {
                 self.ticks.push(value);
             }
         }
+        self.ticks.reverse();
         self
     }
 
@@ -77,6 +74,32 @@ impl Scale {
         Scale { low: -0.5, high, logarithmic: false, ticks, names: names.to_vec() }
     }
 
+    /// Where a value is on an axis with these ends.
+    pub fn place(&self, value: f64, low: i32, high: i32) -> i32 {
+        low + (self.share(value) * f64::from(high - low)).round() as i32
+    }
+
+    /// Whether it has names in place of numbers.
+    pub fn is_of_names(&self) -> bool {
+        !self.names.is_empty()
+    }
+
+    /// The values that have ticks, rising.
+    pub fn ticks(&self) -> &[f64] {
+        &self.ticks
+    }
+
+    /// The text of a tick.
+    pub fn text(&self, tick: f64) -> String {
+        // Ticks of names are their indices; a cast from f64 saturates.
+        self.names.get(tick as usize).cloned().unwrap_or_else(|| tick_text(tick))
+    }
+
+    /// The lowest and the highest value.
+    pub fn ends(&self) -> [f64; 2] {
+        [self.low, self.high]
+    }
+
     /// Position of a value on the axis: 0 at its low end, 1 at its high end.
     fn share(&self, value: f64) -> f64 {
         if self.logarithmic {
@@ -84,34 +107,6 @@ impl Scale {
         } else {
             (value - self.low) / (self.high - self.low)
         }
-    }
-}
-
-impl Ranged for Scale {
-    type FormatOption = NoDefaultFormatting;
-    type ValueType = f64;
-
-    fn map(&self, value: &f64, (from, to): (i32, i32)) -> i32 {
-        from + (self.share(*value) * f64::from(to - from)).round() as i32
-    }
-
-    fn key_points<Hint: KeyPointHint>(&self, _: Hint) -> Vec<f64> {
-        self.ticks.clone()
-    }
-
-    fn range(&self) -> Range<f64> {
-        self.low..self.high
-    }
-}
-
-impl ValueFormatter<f64> for Scale {
-    fn format(value: &f64) -> String {
-        tick_text(*value)
-    }
-
-    fn format_ext(&self, value: &f64) -> String {
-        // Ticks of names are their indices; a cast from f64 saturates.
-        self.names.get(*value as usize).cloned().unwrap_or_else(|| tick_text(*value))
     }
 }
 
@@ -154,9 +149,9 @@ mod tests {
     fn few_values_are_ticks_themselves_where_there_is_room() {
         let processors = || [1.0, 2.0, 4.0, 7.0, 8.0, 14.0, 28.0, 56.0].into_iter();
         let axis = Scale::linear(processors()).ticked_at(processors());
-        assert_eq!(axis.ticks, [56.0, 28.0, 14.0, 8.0, 4.0, 1.0]);
+        assert_eq!(axis.ticks, [1.0, 4.0, 8.0, 14.0, 28.0, 56.0]);
         let axis = Scale::logarithmic(processors()).ticked_at(processors());
-        assert_eq!(axis.ticks, [56.0, 28.0, 14.0, 8.0, 4.0, 2.0, 1.0]);
+        assert_eq!(axis.ticks, [1.0, 2.0, 4.0, 8.0, 14.0, 28.0, 56.0]);
     }
 
     #[test]
@@ -168,7 +163,7 @@ mod tests {
             Scale::logarithmic([3.0].into_iter()),
         ] {
             assert!(axis.low < axis.high, "{axis:?}");
-            assert!(axis.map(&axis.low, (10, 500)) == 10 && axis.map(&axis.high, (10, 500)) == 500);
+            assert!(axis.place(axis.low, 10, 500) == 10 && axis.place(axis.high, 10, 500) == 500);
         }
     }
 }

@@ -1,5 +1,6 @@
 //! What an axis of a plot shows: a column of the results, or the product of several.
 
+use crate::table::axis_title::{axis_title, words};
 use crate::table::runs_csv::Table;
 
 /// A column, or several with "*" between them, such as "patches*local_shots".
@@ -36,37 +37,21 @@ impl<'a> Measure<'a> {
 
     /// Its name for people, without units.
     pub fn words(&self) -> String {
-        let words = self.0.iter().map(|column| words(column)).collect::<Vec<_>>().join(" × ");
-        let mut letters = words.chars();
-        let first = letters.next().into_iter().flat_map(char::to_uppercase);
-        first.chain(letters).collect()
+        capital(&self.0.iter().map(|column| words(column)).collect::<Vec<_>>().join(" × "))
     }
 
-    /// Its name with its unit: the cells' own, or the one that the name ends in.
-    pub fn with_unit(&self, unit: &str) -> String {
-        let unit = match self.0[..] {
-            [column] if column.ends_with("_s") => "s",
-            _ => unit,
-        };
-        let words = self.words();
-        if unit.is_empty() { words } else { format!("{words} ({unit})") }
+    /// Its name with its unit, which for a single column may be that of its cells.
+    pub fn title(&self, unit_of_cells: &str) -> String {
+        let titles = self.0.iter().map(|column| axis_title(column, unit_of_cells));
+        capital(&titles.collect::<Vec<_>>().join(" × "))
     }
 }
 
-/// A column's name for people: without the field that holds it, and without its unit.
-fn words(column: &str) -> String {
-    let name = column.rsplit('.').next().unwrap_or(column);
-    match column {
-        "speed_up" => return "speed-up".to_owned(),
-        "paper_speed_up" => return "paper's speed-up".to_owned(),
-        _ => {}
-    }
-    let words = name.strip_suffix("_s").unwrap_or(name).replace('_', " ");
-    match column.split_once('.') {
-        Some(("host", _)) => format!("host {}", words.replace("cpu", "CPU")),
-        Some(("operations", _)) => format!("{words}s counted"),
-        _ => words,
-    }
+/// Text with a capital first letter.
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().into_iter().flat_map(char::to_uppercase);
+    first.chain(letters).collect()
 }
 
 #[cfg(test)]
@@ -87,7 +72,7 @@ mod tests {
 
     #[test]
     fn names_are_told_in_words() {
-        let label = |name| Measure::of(name).with_unit("");
+        let label = |name| Measure::of(name).title("");
         assert_eq!(label("time_s"), "Time (s)");
         assert_eq!(label("speed_up"), "Speed-up");
         assert_eq!(label("stop.patch_threshold"), "Patch threshold");
