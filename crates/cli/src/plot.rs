@@ -9,7 +9,8 @@ use crate::exit::Exit;
 
 #[derive(Args)]
 pub struct Arguments {
-    /// A folder that `virtwall run` wrote
+    /// A folder that `virtwall run` wrote. Its plots are those that the experiment file asks for now, or, if that
+    /// file is of another configuration now, those of manifest.json
     results: PathBuf,
 }
 

@@ -65,14 +65,17 @@ fn check_over(plot: &Plot, swept: &[String]) -> Result<(), Wrong> {
     let fields = if swept.is_empty() { "none here".to_owned() } else { swept.join(", ") };
     for (field, name) in [("over", over), ("x", &plot.x)] {
         if !swept.contains(name) {
-            let message = format!("\"{name}\" is not swept; with \"over\" expected a swept field ({fields})");
+            let message =
+                format!("\"{name}\" is not swept; with \"over\" expected a swept field ({fields})");
             return Err((Place::of(field), message));
         }
     }
-    let parts = [("x", Some(&plot.x)), ("series", plot.series.as_ref()), ("facet", plot.facet.as_ref())];
+    let parts =
+        [("x", Some(&plot.x)), ("series", plot.series.as_ref()), ("facet", plot.facet.as_ref())];
     match parts.iter().find(|(_, name)| *name == Some(over)) {
         Some((part, _)) => {
-            let message = format!("\"{over}\" is \"{part}\" too; expected another swept field ({fields})");
+            let message =
+                format!("\"{over}\" is \"{part}\" too; expected another swept field ({fields})");
             Err((Place::of("over"), message))
         }
         None => Ok(()),

@@ -63,9 +63,8 @@ impl Plan {
 pub fn read_alone(mut document: Document) -> Result<(Document, Value), Fault> {
     let sweep = swept(&mut document, &[])?;
     let point = &sweep.points[0];
-    let first: Experiment = read(&point.value).map_err(|fault| {
-        document.fault(&sweep.place_in_file(point, fault.place), fault.message)
-    })?;
+    let first: Experiment = read(&point.value)
+        .map_err(|fault| document.fault(&sweep.place_in_file(point, fault.place), fault.message))?;
     let resolved = resolved(&document, &first);
     Ok((document, resolved))
 }

@@ -68,6 +68,11 @@ impl Canvas<'_> {
         Ok(self.0.draw(&Polygon::new(corners, colour.mix(opacity).filled()))?)
     }
 
+    /// A white rectangle between two corners.
+    pub fn blank(&self, corners: [Spot; 2]) -> Drawn {
+        Ok(self.0.draw(&Rectangle::new(corners, WHITE.filled()))?)
+    }
+
     pub fn ring(&self, at: Spot, pixels: u32) -> Drawn {
         let style = INK.stroke_width(FINE);
         Ok(self.0.draw(&Circle::new(at, px(pixels), style))?)

@@ -5,7 +5,7 @@ use crate::experiment::plot::Plot;
 use crate::results::axes::Axes;
 use crate::results::canvas::{self, Canvas, Drawn, GREY, INK, PALE, Side, px};
 use crate::results::label_places::places;
-use crate::results::layout::{HEAD, LETTER, Layout, SAMPLE};
+use crate::results::layout::{Frame, HEAD, LETTER, Layout, SAMPLE, line_name};
 use crate::results::marks::{
     self, BAND, draw_leader, draw_marks, draw_sample, end, fine, has_ideal,
 };
@@ -27,7 +27,11 @@ pub fn svg(table: &Table, sweeps: &[String], plot: &Plot) -> String {
         canvas.text(&title, (px(24), px(26)), 19, INK, Side::Right)?;
         for (number, panel) in drawing.panels.iter().enumerate() {
             let axes = Axes { frame: layout.frame(number), x: &x, y: &y };
-            axes.draw(canvas, layout.has_numbers(number), layout.turned)?;
+            // Without points axes have no values.
+            let numbers = layout.has_numbers(number).map(|has| has && !drawing.is_empty());
+            axes.draw(canvas, numbers, layout.turned)?;
+            let name = (axes.frame.left, axes.frame.top - px(14));
+            canvas.text(&layout.panel_name(&panel.name), name, 15, INK, Side::Right)?;
             draw_panel(canvas, &axes, panel, plot)?;
             if layout.is_single() {
                 draw_names(canvas, &axes, &layout, &drawing)?;
@@ -67,18 +71,19 @@ fn y_scale(drawing: &Drawing, plot: &Plot) -> Scale {
     if plot.logarithmic()[1] { Scale::logarithmic(all) } else { Scale::linear(all) }
 }
 
-/// What is inside the axes, or why there is nothing; and the panel's name above.
+/// What is inside the axes, or why there is nothing.
 fn draw_panel(canvas: &Canvas, axes: &Axes, panel: &Panel, plot: &Plot) -> Drawn {
-    let frame = axes.frame;
-    let name = (frame.left, frame.top - px(14));
-    canvas.text(&panel.name, name, 15, INK, Side::Right)?;
-    draw_marks(canvas, axes, panel, plot)?;
+    if panel.empty.is_empty() {
+        return draw_marks(canvas, axes, panel, plot);
+    }
+    let Frame { left, top, right, bottom } = axes.frame;
+    canvas.blank([(left + px(1), top - px(1)), (right + px(1), bottom - px(1))])?;
     // A line of text for each sentence.
     let sentences: Vec<&str> = panel.empty.split_inclusive(". ").collect();
-    for (line, sentence) in sentences.iter().enumerate() {
-        let (x, y) = frame.middle();
-        let at = (x, y - px(30) + px(20) * line as i32);
-        canvas.text(sentence.trim_end(), at, 14, GREY, Side::Below)?;
+    for (line, sentence) in (0..).zip(sentences) {
+        let (x, y) = axes.frame.middle();
+        let at = (x, y - px(30) + px(20) * line);
+        canvas.text(sentence.trim_end(), at, 14, INK, Side::Below)?;
     }
     Ok(())
 }
@@ -121,7 +126,7 @@ fn draw_names(canvas: &Canvas, axes: &Axes, layout: &Layout, drawing: &Drawing) 
 /// A sample of a line, and its name.
 fn draw_entry(canvas: &Canvas, (x, y): Spot, series: &Series, name: &str) -> Drawn {
     draw_sample(canvas, (x, y), Style::of(series.line), series.simulated.is_empty())?;
-    canvas.text(name, (x + px(SAMPLE + 5), y), 15, INK, Side::Right)
+    canvas.text(&line_name(name), (x + px(SAMPLE + 5), y), 15, INK, Side::Right)
 }
 
 /// The lines of all panels, one below another.
@@ -210,4 +215,68 @@ fn notes(drawing: &Drawing) -> Vec<String> {
         notes.push(format!("{} lines: styles repeat after {STYLES}", drawing.names.len()));
     }
     notes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table(columns: &[&str], rows: &[Vec<String>]) -> Table {
+        Table {
+            columns: columns.iter().map(|&name| name.to_owned()).collect(),
+            rows: rows.to_vec(),
+        }
+    }
+
+    fn plot(text: &str) -> Plot {
+        serde_json::from_str(text).unwrap()
+    }
+
+    /// Lines that coincide all show: each has its colour and dash, or its turns, and all markers.
+    #[test]
+    fn a_sweep_of_24_lines_draws_each() {
+        let rows: Vec<Vec<String>> = (0..STYLES * 3)
+            .map(|i| vec![format!("line {}", i / 3), (i % 3 + 1).to_string(), "7".to_owned()])
+            .collect();
+        let table = table(&["series", "x", "y"], &rows);
+        let sweeps = ["series", "x"].map(str::to_owned);
+        let svg = svg(&table, &sweeps, &plot(r#"{"x": "x", "y": "y"}"#));
+        for line in 0..STYLES {
+            assert!(
+                svg.contains(&format!("\nline {line}\n")) || svg.contains(&format!(">line {line}"))
+            );
+        }
+        let strokes = |colour: &str| {
+            let lines =
+                svg.lines().filter(|line| line.starts_with("<polyline") && line.contains(colour));
+            lines.filter(|line| line.contains("stroke-width=\"16\"")).count()
+        };
+        // Three lines of a colour, two segments, one turn or more each.
+        assert!(strokes("#0072B2") >= 6 && strokes("#E69F00") >= 6);
+        assert!(!svg.contains("styles repeat"));
+    }
+
+    #[test]
+    fn an_empty_plot_says_why() {
+        let row = |ending: &str| ["1", "", ending].map(str::to_owned).to_vec();
+        let columns = ["x", "y", "ending"];
+        let empty =
+            plot(r#"{"x": "x", "y": "y", "log_y": true, "lines": [{"y": 1, "label": "one"}]}"#);
+        let failed = svg(&table(&columns, &[row("failed"), row("failed")]), &[], &empty);
+        assert!(failed.contains("All 2 runs failed."), "{failed}");
+        let agreed = svg(&table(&columns, &[row("agreed")]), &[], &empty);
+        assert!(agreed.contains("No run has a number as y."), "{agreed}");
+        assert!(svg(&table(&columns, &[]), &[], &empty).contains("There are no runs."));
+    }
+
+    #[test]
+    fn reference_lines_and_titles_are_written() {
+        let rows = [vec!["1".to_owned(), "3 %".to_owned()], vec!["2".to_owned(), "4 %".to_owned()]];
+        let asked =
+            r#"{"x": "time_s", "y": "share", "lines": [{"y": 9, "label": "goal"}, {"x": 1.5}]}"#;
+        let svg = svg(&table(&["time_s", "share"], &rows), &[], &plot(asked));
+        for text in ["goal", "Time (s)", "Share (%)", "Share by time"] {
+            assert!(svg.contains(text), "{text}: {svg}");
+        }
+    }
 }

@@ -14,7 +14,11 @@ pub fn why(table: &Table, rows: &[&Vec<String>], plot: &Plot, numeric: bool) -> 
         return "There are no runs.".to_owned();
     }
     if failed == runs {
-        return if runs == 1 { "The run failed.".to_owned() } else { format!("All {runs} runs failed.") };
+        return if runs == 1 {
+            "The run failed.".to_owned()
+        } else {
+            format!("All {runs} runs failed.")
+        };
     }
     let value = |text: &str, row: &Vec<String>| Measure::of(text).value(table, row);
     let has_x = |row: &Vec<String>| !numeric || value(&plot.x, row).is_some();
@@ -37,7 +41,11 @@ pub fn why(table: &Table, rows: &[&Vec<String>], plot: &Plot, numeric: bool) -> 
 }
 
 fn no_number(column: &str) -> String {
-    let host = if column.contains(HOST) { format!(" {} is not here.", host_times::FILE) } else { String::new() };
+    let host = if column.contains(HOST) {
+        format!(" {} is not here.", host_times::FILE)
+    } else {
+        String::new()
+    };
     format!("No run has a number as {column}.{host}")
 }
 
@@ -61,7 +69,10 @@ mod tests {
             (&[][..], "There are no runs."),
             (&[failed], "The run failed."),
             (&[failed, failed], "All 2 runs failed."),
-            (&[["1", "", "3", "agreed"], failed], "No run has a number as time_s. 1 of 2 runs failed."),
+            (
+                &[["1", "", "3", "agreed"], failed],
+                "No run has a number as time_s. 1 of 2 runs failed.",
+            ),
             (&[["1", "2", "", "agreed"]], "No run has a number as error_l2."),
             (
                 &[["1", "2", "", "agreed"], ["1", "", "3", "agreed"]],
@@ -71,7 +82,8 @@ mod tests {
         ] {
             assert_eq!(why_of(rows, plot), reason);
         }
-        let host = why_of(&[["1", "2", "3", "agreed"]], r#"{"x": "processors", "y": "host.cpu_s"}"#);
+        let host =
+            why_of(&[["1", "2", "3", "agreed"]], r#"{"x": "processors", "y": "host.cpu_s"}"#);
         assert_eq!(host, "No run has a number as host.cpu_s. host-times.json is not here.");
     }
 }

@@ -166,7 +166,8 @@ fn figures(manifest: &Path) -> Vec<String> {
     let Ok(document) = Document::read(manifest) else { return Vec::new() };
     let plots = read::<Vec<Plot>>(&document.value["experiment"]["plots"]).unwrap_or_default();
     let stems = plots.iter().map(Plot::stem).filter(|stem| is_plain(stem));
-    let summary = plots.iter().any(|plot| plot.over.is_some()).then(|| repeats_csv::FILE.to_owned());
+    let summary =
+        plots.iter().any(|plot| plot.over.is_some()).then(|| repeats_csv::FILE.to_owned());
     stems.map(|stem| format!("{stem}.svg")).chain(summary).collect()
 }
 

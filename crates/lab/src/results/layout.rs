@@ -19,7 +19,9 @@ const GAP: (u32, u32) = (20, 38);
 /// From the axes to the names of the lines, with room for leaders.
 const LEADERS: u32 = 36;
 /// A line's sample before its name.
-pub const SAMPLE: u32 = 30;
+pub const SAMPLE: u32 = 40;
+/// The most letters of a name that are written.
+const MOST: usize = 100;
 
 /// The axes of a panel: the rectangle that points are in, drawing units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,15 +55,18 @@ impl Layout {
         };
         let panel = if panels == 1 { SINGLE } else { SMALL };
         let longest = |names: &[String]| {
-            names.iter().map(|name| name.chars().count()).max().unwrap_or(0).min(100) as u32
+            names.iter().map(|name| name.chars().count()).max().unwrap_or(0).min(MOST) as u32
         };
         let law = drawing.series_of_all().any(|series| panels == 1 && series.law.is_some());
         let names = longest(&drawing.names) + if law { 26 } else { 0 };
-        let names = if names == 0 { 24 } else { LEADERS + SAMPLE + LETTER.0 * names };
+        let names = if names == 0 { 24 } else { LEADERS + SAMPLE + 16 + LETTER.0 * names };
         let ticks = longest(&drawing.categories);
         let turned = LETTER.0 * ticks * drawing.categories.len() as u32 > panel.0;
         let foot = FOOT + if turned { LETTER.0 * ticks } else { 0 };
-        let axes = (columns * (panel.0 + GAP.0) - GAP.0, panels.div_ceil(columns) * (panel.1 + GAP.1) - GAP.1);
+        let axes = (
+            columns * (panel.0 + GAP.0) - GAP.0,
+            panels.div_ceil(columns) * (panel.1 + GAP.1) - GAP.1,
+        );
         let head = HEAD + if panels == 1 { 0 } else { GAP.1 - 12 };
         let lines = drawing.names.len().min(1_000) as u32 * LETTER.1;
         let width = (LEFT + axes.0 + names).max(48 + 10 * letters.min(150) as u32);
@@ -86,6 +91,11 @@ impl Layout {
         [panel as u32 + self.columns >= self.panels, (panel as u32).is_multiple_of(self.columns)]
     }
 
+    /// The name of a panel, as far as there is room for it.
+    pub fn panel_name(&self, name: &str) -> String {
+        last_letters(name, (self.panel.0 / LETTER.0) as usize)
+    }
+
     /// All panels together.
     pub fn whole(&self) -> Frame {
         let (first, last) = (self.frame(0), self.frame(self.panels as usize - 1));
@@ -107,5 +117,31 @@ impl Layout {
 impl Frame {
     pub fn middle(&self) -> Spot {
         ((self.left + self.right) / 2, (self.top + self.bottom) / 2)
+    }
+}
+
+/// The name of a line, as far as it is written.
+pub fn line_name(name: &str) -> String {
+    last_letters(name, MOST)
+}
+
+/// The last letters of a text that is longer: names of files differ there.
+fn last_letters(text: &str, most: usize) -> String {
+    let letters = text.chars().count();
+    if letters <= most {
+        return text.to_owned();
+    }
+    let last = text.chars().skip(letters + 1 - most);
+    std::iter::once('…').chain(last).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_names_keep_their_ends() {
+        assert_eq!(last_letters("abc", 3), "abc");
+        assert_eq!(last_letters("abcd", 3), "…cd");
     }
 }

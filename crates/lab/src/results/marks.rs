@@ -3,10 +3,11 @@
 use crate::experiment::plot::Plot;
 use crate::results::axes::Axes;
 use crate::results::canvas::{Canvas, Drawn, GREY, PALE, Side, px};
+use crate::results::layout::SAMPLE;
 use crate::results::power_law::PowerLaw;
 use crate::results::series::{Panel, Series};
 use crate::results::strokes::{ALONE, Spot, strokes, turns};
-use crate::results::style::{PUBLISHED, Style};
+use crate::results::style::{Marker, PUBLISHED, Style};
 
 /// Widths of lines, simulated and published, pixels.
 pub const WIDTHS: (f64, f64) = (2.0, 1.25);
@@ -31,9 +32,10 @@ pub fn draw_marks(canvas: &Canvas, axes: &Axes, panel: &Panel, plot: &Plot) -> D
     for ((line, turns), series) in lines.iter().zip(turns(&lines, NEAR)).zip(&panel.series) {
         let style = Style::of(series.line);
         let published: Vec<Spot> = series.paper.iter().map(|at| axes.spot(*at)).collect();
+        let of_paper = published_style(panel, series);
         let alone = vec![ALONE; published.len().saturating_sub(1)];
         for stroke in strokes(&published, &alone, &fine(PUBLISHED), 0.0) {
-            canvas.line(stroke, style.colour, WIDTHS.1)?;
+            canvas.line(stroke, of_paper.colour, WIDTHS.1)?;
         }
         for stroke in strokes(line, &turns, &fine(style.dash), f64::from(px(TURN))) {
             canvas.line(stroke, style.colour, WIDTHS.0)?;
@@ -109,9 +111,16 @@ fn line(axes: &Axes, series: &Series) -> Vec<Spot> {
     points.into_iter().map(|at| axes.spot(at)).collect()
 }
 
+/// The style of a line's published points: its own, unless several lines are compared with the same.
+fn published_style(panel: &Panel, series: &Series) -> Style {
+    let same = panel.series.iter().filter(|other| other.paper == series.paper).count();
+    let own = Style::of(series.line);
+    if same > 1 { Style { colour: GREY, marker: Marker::Circle, ..own } } else { own }
+}
+
 fn draw_points(canvas: &Canvas, axes: &Axes, panel: &Panel) -> Drawn {
     for series in &panel.series {
-        let Style { colour, marker, .. } = Style::of(series.line);
+        let Style { colour, marker, .. } = published_style(panel, series);
         // A single point, where the two should agree, would hide behind ours: a larger one around it.
         let radius = if series.paper.len() == 1 { 2.0 * MARKER } else { MARKER };
         for &at in &series.paper {
@@ -124,13 +133,23 @@ fn draw_points(canvas: &Canvas, axes: &Axes, panel: &Panel) -> Drawn {
             canvas.dot(axes.spot(at), 2, Style::of(series.line).colour)?;
         }
     }
-    let joined: Vec<Vec<Spot>> = panel.series.iter().map(|series| {
-        series.simulated.iter().filter(|at| is_joined(series, at)).map(|at| axes.spot(*at)).collect()
-    }).collect();
+    let joined: Vec<Vec<Spot>> = panel
+        .series
+        .iter()
+        .map(|series| {
+            series
+                .simulated
+                .iter()
+                .filter(|at| is_joined(series, at))
+                .map(|at| axes.spot(*at))
+                .collect()
+        })
+        .collect();
     for (i, series) in panel.series.iter().enumerate() {
         let Style { colour, marker, .. } = Style::of(series.line);
         for &at in &joined[i] {
-            let above = joined[i + 1..].iter().filter(|line| passes(line, at)).take(MOST_BELOW).count();
+            let above =
+                joined[i + 1..].iter().filter(|line| passes(line, at)).take(MOST_BELOW).count();
             canvas.marker(marker, at, MARKER + LARGER * above as f64, colour, false)?;
         }
         for &at in &series.marked {
@@ -161,12 +180,12 @@ pub fn end(axes: &Axes, series: &Series) -> Option<Spot> {
 
 /// A sample of a line that begins at a place: line and marker.
 pub fn draw_sample(canvas: &Canvas, (x, y): Spot, style: Style, hollow: bool) -> Drawn {
-    let line = [(x, y), (x + px(28), y)];
+    let line = [(x, y), (x + px(SAMPLE), y)];
     let width = if hollow { WIDTHS.1 } else { WIDTHS.0 };
     for stroke in strokes(&line, &[ALONE], &fine(style.dash), 0.0) {
         canvas.line(stroke, style.colour, width)?;
     }
-    canvas.marker(style.marker, (x + px(14), y), MARKER, style.colour, hollow)
+    canvas.marker(style.marker, (x + px(SAMPLE / 2), y), MARKER, style.colour, hollow)
 }
 
 /// A thin leader from the end of a line to its name.

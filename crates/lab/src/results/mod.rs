@@ -16,8 +16,8 @@ pub mod networks; // Network models compared.
 pub mod origin; // The experiment file that results were made from.
 pub mod pareto; // The Pareto front of points.
 pub mod power_law; // Power laws fitted to points.
-pub mod recordings; // Recorded runs for the report.
 pub mod present; // The plots that an experiment file asks for now.
+pub mod recordings; // Recorded runs for the report.
 pub mod repeats; // Mean and spread of repeats.
 pub mod repeats_csv; // summary.csv.
 pub mod report; // The report page.

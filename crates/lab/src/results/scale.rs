@@ -18,10 +18,12 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// A linear axis from 0, or from below if values are negative, to above the largest value.
+    /// A linear axis from 0, or from below the least value if it is negative, to above the greatest one.
     pub fn linear(values: impl Iterator<Item = f64>) -> Scale {
         let (low, high) = values.fold((0.0, 0.0), |(l, h): (f64, f64), v| (l.min(v), h.max(v)));
-        let high = if high > low { high + 0.04 * (high - low) } else { low + 1.0 };
+        let margin = 0.04 * (high - low);
+        let low = if low < 0.0 { low - margin } else { low };
+        let high = if high > low { high + margin } else { low + 1.0 };
         let step = nice_step((high - low) / TICKS);
         let first = (low / step).ceil() as i64;
         let last = (high / step).floor() as i64;
@@ -140,6 +142,8 @@ mod tests {
     fn ticks_are_round_numbers_inside_the_axis() {
         let axis = Scale::linear([1.0, 56.0].into_iter());
         assert_eq!(axis.ticks, [0.0, 10.0, 20.0, 30.0, 40.0, 50.0]);
+        let axis = Scale::linear([-100.0].into_iter());
+        assert_eq!(axis.ends(), [-104.0, 4.0]);
         let axis = Scale::logarithmic([1.0, 56.0].into_iter());
         assert_eq!(axis.ticks, [1.0, 2.0, 5.0, 10.0, 20.0, 50.0]);
         assert_eq!(tick_text(3.0 * 0.1), "0.3");

@@ -117,6 +117,10 @@ impl Drawing {
         self.panels.iter().flat_map(Panel::points)
     }
 
+    pub fn is_empty(&self) -> bool {
+        self.points().next().is_none()
+    }
+
     pub fn series_of_all(&self) -> impl Iterator<Item = &Series> + Clone {
         self.panels.iter().flat_map(|panel| &panel.series)
     }
@@ -172,7 +176,8 @@ impl Series {
         self.repeats.retain(|(x, repeats)| fits(&(*x, repeats.mean)));
         if log_y {
             // A band goes down to where its mean is if it has no place below.
-            let lowest = self.repeats.iter().map(|(_, repeats)| repeats.low).filter(|low| *low > 0.0);
+            let lowest =
+                self.repeats.iter().map(|(_, repeats)| repeats.low).filter(|low| *low > 0.0);
             let lowest = lowest.fold(f64::MAX, f64::min);
             for (_, repeats) in self.repeats.iter_mut().filter(|(_, repeats)| repeats.low <= 0.0) {
                 repeats.low = lowest.min(repeats.mean);
@@ -221,8 +226,10 @@ fn name(table: &Table, row: &[String], sweeps: &[String], plot: &Plot) -> String
 fn cell(table: &Table, row: &[String], name: &str) -> String {
     match table.cell(row, name) {
         "" => format!("{name} default"),
-        // A bare number says nothing without its field.
-        cell if cell.parse::<f64>().is_ok() => format!("{name} {cell}"),
+        // A bare number, or yes or no, says nothing without its field.
+        cell if cell.parse::<f64>().is_ok() || cell.parse::<bool>().is_ok() => {
+            format!("{name} {cell}")
+        }
         cell => cell.to_owned(),
     }
 }

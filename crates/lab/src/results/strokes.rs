@@ -29,7 +29,8 @@ pub fn turns(lines: &[Vec<Spot>], near: i32) -> Vec<Vec<Turn>> {
         }
         let (ends, ..) = segments[first];
         let close = |a: Spot, b: Spot| (a.0 - b.0).abs().max((a.1 - b.1).abs()) <= near;
-        let reach = segments[first..].iter().take_while(|(other, ..)| other[0].0 - ends[0].0 <= near);
+        let reach =
+            segments[first..].iter().take_while(|(other, ..)| other[0].0 - ends[0].0 <= near);
         let mut shared: Vec<usize> = Vec::new();
         for (i, (other, line, _)) in (first..).zip(reach) {
             let new = !shared.iter().any(|&known: &usize| segments[known].1 == *line);
