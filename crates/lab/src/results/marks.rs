@@ -13,7 +13,7 @@ use crate::results::style::{Marker, PUBLISHED, Style};
 pub const WIDTHS: (f64, f64) = (2.0, 1.25);
 /// Radius of a marker, pixels, and by how much one below another is larger. No more than a few show.
 pub const MARKER: f64 = 4.0;
-const LARGER: f64 = 1.75;
+const LARGER: f64 = 1.5;
 const MOST_BELOW: usize = 5;
 /// Lines and points as near as this coincide, drawing units.
 const NEAR: i32 = px(1) + px(1) / 2;

@@ -18,11 +18,14 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// A linear axis from 0, or from below the least value if it is negative, to above the greatest one.
+    /// A linear axis from 0, or from the least value if it is negative, to the greatest one, with room for a marker
+    /// around both.
     pub fn linear(values: impl Iterator<Item = f64>) -> Scale {
-        let (low, high) = values.fold((0.0, 0.0), |(l, h): (f64, f64), v| (l.min(v), h.max(v)));
+        let (least, high) =
+            values.fold((f64::MAX, 0.0), |(l, h): (f64, f64), v| (l.min(v), h.max(v)));
+        let low = least.min(0.0);
         let margin = 0.04 * (high - low);
-        let low = if low < 0.0 { low - margin } else { low };
+        let low = if least <= 0.0 { low - margin } else { low };
         let high = if high > low { high + margin } else { low + 1.0 };
         let step = nice_step((high - low) / TICKS);
         let first = (low / step).ceil() as i64;
@@ -78,7 +81,7 @@ impl Scale {
 
     /// Where a value is on an axis with these ends.
     pub fn place(&self, value: f64, low: i32, high: i32) -> i32 {
-        low + (self.share(value) * f64::from(high - low)).round() as i32
+        low + (self.share(value).clamp(-1.0, 2.0) * f64::from(high - low)).round() as i32
     }
 
     /// Whether it has names in place of numbers.
@@ -144,6 +147,7 @@ mod tests {
         assert_eq!(axis.ticks, [0.0, 10.0, 20.0, 30.0, 40.0, 50.0]);
         let axis = Scale::linear([-100.0].into_iter());
         assert_eq!(axis.ends(), [-104.0, 4.0]);
+        assert_eq!(Scale::linear([0.0, 100.0].into_iter()).ends(), [-4.0, 104.0]);
         let axis = Scale::logarithmic([1.0, 56.0].into_iter());
         assert_eq!(axis.ticks, [1.0, 2.0, 5.0, 10.0, 20.0, 50.0]);
         assert_eq!(tick_text(3.0 * 0.1), "0.3");
