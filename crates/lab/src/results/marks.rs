@@ -58,7 +58,8 @@ pub fn has_ideal(plot: &Plot) -> bool {
 fn draw_reference_lines(canvas: &Canvas, axes: &Axes, plot: &Plot) -> Drawn {
     let ([x_low, x_high], [y_low, y_high]) = (axes.x.ends(), axes.y.ends());
     if has_ideal(plot) {
-        let [from, to] = [x_low.max(y_low), x_high.min(y_high)].map(|v| axes.clamped((v, v)));
+        let [from, to] =
+            [x_low.max(y_low).max(0.0), x_high.min(y_high)].map(|v| axes.clamped((v, v)));
         canvas.line([from, to], PALE, 1.25)?;
     }
     for reference in &plot.lines {

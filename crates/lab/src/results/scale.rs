@@ -25,7 +25,7 @@ impl Scale {
             values.fold((f64::MAX, 0.0), |(l, h): (f64, f64), v| (l.min(v), h.max(v)));
         let low = least.min(0.0);
         let margin = 0.04 * (high - low);
-        let low = if least <= 0.0 { low - margin } else { low };
+        let low = if least < low + margin { low - margin } else { low };
         let high = if high > low { high + margin } else { low + 1.0 };
         let step = nice_step((high - low) / TICKS);
         let first = (low / step).ceil() as i64;
@@ -145,6 +145,7 @@ mod tests {
     fn ticks_are_round_numbers_inside_the_axis() {
         let axis = Scale::linear([1.0, 56.0].into_iter());
         assert_eq!(axis.ticks, [0.0, 10.0, 20.0, 30.0, 40.0, 50.0]);
+        assert_eq!(Scale::linear([50.0, 100.0].into_iter()).ends(), [0.0, 104.0]);
         let axis = Scale::linear([-100.0].into_iter());
         assert_eq!(axis.ends(), [-104.0, 4.0]);
         assert_eq!(Scale::linear([0.0, 100.0].into_iter()).ends(), [-4.0, 104.0]);

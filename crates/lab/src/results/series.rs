@@ -91,7 +91,7 @@ impl Drawing {
             };
             // A run that failed has no figures.
             let Some(x) = x else { continue };
-            let series = drawing.series(panel, name(table, row, besides, plot));
+            let series = drawing.series(panel, &name(table, row, besides, plot));
             let point = up.value(table, row).map(|y| (x, y));
             series.simulated.extend(point);
             series.marked.extend(point.filter(|_| marked(table, row, plot)));
@@ -136,8 +136,8 @@ impl Drawing {
     }
 
     /// The line of that name in a panel, begun if need be.
-    fn series(&mut self, panel: usize, name: String) -> &mut Series {
-        let line = position(&mut self.names, &name);
+    fn series(&mut self, panel: usize, name: &str) -> &mut Series {
+        let line = position(&mut self.names, name);
         let series = &mut self.panels[panel].series;
         let index = series.iter().position(|s| s.line == line).unwrap_or(series.len());
         if index == series.len() {
