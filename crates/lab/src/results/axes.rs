@@ -1,7 +1,7 @@
 //! Axes of a panel: grid, ticks and numbers.
 
 use crate::results::canvas::{Canvas, Drawn, GRID, INK, PALE, Side, px};
-use crate::results::layout::Frame;
+use crate::results::layout::{Frame, line_name};
 use crate::results::scale::Scale;
 use crate::results::strokes::Spot;
 
@@ -28,7 +28,7 @@ impl Axes<'_> {
         self.y.place(y, self.frame.bottom, self.frame.top)
     }
 
-    /// A straight line between two points, which may be outside; only what is inside is drawn.
+    /// The place inside the axes that is nearest to a point.
     pub fn clamped(&self, (x, y): (f64, f64)) -> Spot {
         let Frame { left, top, right, bottom } = self.frame;
         (self.across(x).clamp(left, right), self.up(y).clamp(top, bottom))
@@ -49,7 +49,7 @@ impl Axes<'_> {
         canvas.line([(left, top), (left, bottom), (right, bottom)], PALE, 1.0)?;
         let mut free = i32::MIN;
         for &tick in self.x.ticks() {
-            let (x, text) = (self.across(tick), self.x.text(tick));
+            let (x, text) = (self.across(tick), line_name(&self.x.text(tick)));
             canvas.line([(x, bottom), (x, bottom + px(5))], PALE, 1.0)?;
             let width = if turned { NUMBERS.1 } else { NUMBERS.1 * text.chars().count() as i32 };
             if numbers[0] && x - width / 2 >= free {

@@ -120,7 +120,7 @@ impl Frame {
     }
 }
 
-/// The name of a line, as far as it is written.
+/// The name of a line, or of a place along the horizontal axis, as far as it is written.
 pub fn line_name(name: &str) -> String {
     last_letters(name, MOST)
 }
