@@ -5,13 +5,17 @@
 mod arguments;
 mod bench_rays;
 mod check;
+mod completions;
 mod exit;
+mod explain;
 mod export;
 mod files;
 mod formfactors;
 mod list;
 mod live;
 mod machine;
+mod man;
+mod named;
 mod plot;
 mod progress;
 mod reference;
@@ -19,13 +23,14 @@ mod render;
 mod run;
 mod scene;
 mod schema;
+mod show;
 mod stability;
 mod steps;
 mod threads;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::exit::{Exit, print, print_note};
 
@@ -41,8 +46,12 @@ struct Arguments {
 enum Command {
     /// Run an experiment and write its results
     Run(run::Arguments),
-    /// List the scenes, machines and experiments that have names here
+    /// List what has a name: scenes, machines, experiments, network models, columns, fields, choices
     List(list::Arguments),
+    /// Show a scene, a machine or an experiment
+    Show(show::Arguments),
+    /// Explain a column of results, a field of a file, a choice or a network model
+    Explain(explain::Arguments),
     /// Write a built-in scene, machine or experiment into a folder, to be changed there
     Export(export::Arguments),
     /// Draw the plots and the report of saved results again
@@ -68,6 +77,10 @@ enum Command {
     Bench(BenchCommand),
     /// Print the JSON Schema of a kind of file
     Schema(schema::Arguments),
+    /// Print a script that completes arguments in a shell
+    Completions(completions::Arguments),
+    /// Write manual pages into a folder
+    Man(man::Arguments),
 }
 
 #[derive(Subcommand)]
@@ -80,6 +93,8 @@ fn main() -> ExitCode {
     let result = match &Arguments::parse().command {
         Command::Run(arguments) => run::run(arguments),
         Command::List(arguments) => list::run(arguments),
+        Command::Show(arguments) => show::run(arguments),
+        Command::Explain(arguments) => explain::run(arguments),
         Command::Export(arguments) => export::run(arguments),
         Command::Plot(arguments) => plot::run(arguments),
         Command::Check(arguments) => check::run(arguments),
@@ -91,6 +106,8 @@ fn main() -> ExitCode {
         Command::Stability(arguments) => stability::run(arguments),
         Command::Bench(BenchCommand::Rays(arguments)) => bench_rays::run(arguments),
         Command::Schema(arguments) => schema::run(arguments),
+        Command::Completions(arguments) => completions::run(arguments, Arguments::command()),
+        Command::Man(arguments) => man::run(arguments, Arguments::command()),
     };
     match result {
         Ok(text) => {

@@ -14,6 +14,7 @@ use traces::{Format, Sample};
 use crate::exit::{Exit, print, print_warnings};
 use crate::files::make_folder;
 use crate::live;
+use crate::named::not_an_experiment;
 use crate::progress::{Pilots, Progress};
 use crate::threads::Threads;
 
@@ -118,8 +119,9 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let changes: Vec<String> = arguments.set.iter().cloned().chain(short).collect();
     let threads = arguments.threads.count();
     let memory = arguments.memory.unwrap_or_else(lab::half_of_free_memory);
+    let meant = |exit: Exit| not_an_experiment(&arguments.experiment).map_or(exit, Exit::bad_input);
     let found = find_here(&FileKind::EXPERIMENTS, &arguments.experiment);
-    let file = found.map_err(Exit::bad_input)?.path;
+    let file = found.map_err(|message| meant(Exit::bad_input(message)))?.path;
     let name = file.file_stem().unwrap_or_default().to_string_lossy();
     let out = arguments.out.clone().unwrap_or_else(|| folder_for(&name, &changes));
     for folder in [out.join(".partial"), out.clone()] {
@@ -128,7 +130,8 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let pilots = Pilots::new(arguments.quiet);
     let on_pilot = |scene: &str, target, runs| pilots.update(scene, target, runs);
     let preparing = Preparing { threads, memory, finding: true, on_pilot: &on_pilot };
-    let plan = Arc::new(Plan::read(&file, &set, &preparing)?.changed(&changes));
+    let plan = Plan::read(&file, &set, &preparing).map_err(|fault| meant(fault.into()))?;
+    let plan = Arc::new(plan.changed(&changes));
     pilots.end();
     if !arguments.quiet {
         print_warnings(&plan.warnings);

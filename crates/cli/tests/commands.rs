@@ -57,6 +57,7 @@ fn a_run_prints_its_table_and_writes_its_results() {
     let expected = [
         "host-times.json",
         "manifest.json",
+        "operations.csv",
         "origin.json",
         "report.html",
         "runs.csv",
@@ -241,7 +242,10 @@ fn saved_results_are_drawn_anew() {
     // What the viewer shows was recorded in the run, and stands in the report alone.
     fs::remove_file(project.path("out").join(names[1])).unwrap();
     let (code, stdout, _) = output(&project, &["plot", "out"]);
-    assert_eq!((code, stdout.as_str()), (0, "out/speed_up-by-processors.svg\nout/report.html\n"));
+    assert_eq!(
+        (code, stdout.as_str()),
+        (0, "out/operations.csv\nout/speed_up-by-processors.svg\nout/report.html\n")
+    );
     assert_eq!(drawn(), before);
 }
 
@@ -455,4 +459,33 @@ fn a_folder_of_results_belongs_to_one_configuration() {
     assert_eq!(run(&["--set", "plots=[]", "--out", "results/x"]).0, 0);
     assert_eq!(figures(), [""; 0]);
     assert_eq!(run(&["--set", "processors=1", "--out", "results/x", "--replace"]).0, 0);
+}
+
+/// Speed-ups without their base say so; another base may be chosen.
+#[test]
+fn speed_ups_are_relative_to_a_run_that_there_is() {
+    let project = Project::new(&SWEEP.replace("[64, 256]", "64").replace("[1, 2, 4]", "[2, 4]"));
+    let run = |more: &[&str]| {
+        let (code, said, stderr) =
+            output(&project, &[&["run", "experiments/x.json"], more].concat());
+        assert_eq!((code, stderr.as_str()), (0, ""));
+        said
+    };
+    let said = run(&[]);
+    assert!(said.contains("No speed-up of box: no run on 1 processor to compare with."), "{said}");
+    let said = run(&["--set", "speed_up_over=2", "--out", "two"]);
+    assert!(!said.contains("No speed-up"), "{said}");
+    let csv = fs::read_to_string(project.path("two/runs.csv")).unwrap();
+    let mut rows = csv.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let columns = rows.next().unwrap();
+    let place = |name: &str| columns.iter().position(|column| *column == name).unwrap();
+    let number = |row: &[&str], name| row[place(name)].parse::<f64>().unwrap();
+    let [two, four] = [rows.next().unwrap(), rows.next().unwrap()];
+    assert_eq!((number(&two, "speed_up"), number(&two, "efficiency")), (1.0, 1.0));
+    let speed_up = number(&two, "time_s") / number(&four, "time_s");
+    assert!((number(&four, "speed_up") - speed_up).abs() < 1e-4);
+    assert!((number(&four, "efficiency") - speed_up / 2.0).abs() < 1e-4);
+    let bad = ["run", "experiments/x.json", "--set", "speed_up_over=0"];
+    let (code, _, stderr) = output(&project, &bad);
+    assert!(code == 2 && stderr.contains("speed_up_over: 0; expected 1 or more"), "{stderr}");
 }

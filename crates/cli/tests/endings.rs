@@ -76,7 +76,7 @@ fn many_more_shots_than_on_one_processor_give_a_warning() {
     assert!(warnings[0].contains(&expected), "{stderr}");
     assert!(warnings[0].contains(&format!("times the {} on one processor", shots[0])), "{stderr}");
 
-    let (status, stderr, _) = run(&project, &["--fresh", "--set", "stop.patch_threshold=1 %"]);
+    let (status, stderr, _) = run(&project, &["--replace", "--set", "stop.patch_threshold=1 %"]);
     assert_eq!((status, stderr.contains("warning")), (Some(0), false), "{stderr}");
 }
 

@@ -55,13 +55,17 @@ impl fmt::Display for Fault {
 
 impl std::error::Error for Fault {}
 
+/// The number of letters by which a name differs from a known one; none if they are too many for a slip.
+pub fn distance(name: &str, known: &str) -> Option<usize> {
+    let distance = strsim::damerau_levenshtein(name, known);
+    (distance <= 1 + name.chars().count() / 4).then_some(distance)
+}
+
 /// The message for a name that is not among those known: the nearest one, then all.
 pub fn unknown(what: &str, name: &str, known: &[String]) -> String {
-    let nearest = known
-        .iter()
-        .map(|candidate| (strsim::damerau_levenshtein(name, candidate), candidate))
-        .filter(|(distance, _)| *distance <= 1 + name.chars().count() / 4)
-        .min();
+    let nearest =
+        known.iter().filter_map(|candidate| Some((distance(name, candidate)?, candidate)));
+    let nearest = nearest.min();
     let hint = nearest.map_or(String::new(), |(_, near)| format!(", did you mean \"{near}\"?"));
     let known = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
     format!("unknown {what} \"{name}\"{hint} (there are: {known})")

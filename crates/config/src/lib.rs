@@ -14,7 +14,7 @@ pub mod schema; // schemas of these types
 
 pub use dimension::{Dimension, parse};
 pub use document::Document;
-pub use fault::{Fault, unknown};
+pub use fault::{Fault, distance, unknown};
 pub use file::{read_bytes, read_text, unreadable};
 pub use merge::{fill, merge};
 pub use place::{Place, Step};

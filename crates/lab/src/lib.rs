@@ -7,6 +7,7 @@ mod accuracy; // errors of runs, and the search for settings that reach an error
 mod engine; // one run; only this folder calls the simulator
 mod experiment; // an experiment file: its fields, and the product of its lists
 mod files; // reading of files: names, JSON, units, digests, and messages about what is wrong
+mod glossary; // what columns, fields, choices and network models mean
 mod host; // the computer that this program runs on: clock, memory, locks, the program file
 mod inspect; // single files, scenes and runs, without a folder of results
 mod open; // scenes and machines: from their files to meshed and cut problems
@@ -21,9 +22,13 @@ pub use experiment::schema::experiment_schema;
 pub use files::digest::{sealed, unsealed};
 pub use files::file::{check_writable, write as write_file};
 pub use files::find::{FileKind, Found, all_here, find_here};
+pub use glossary::entries::{explain, glossary};
+pub use glossary::entry::{Entry, Term};
 pub use host::host_clock::HostClock;
 pub use host::host_memory::half_of_free_memory;
 pub use inspect::check::{Checked, check};
+pub use inspect::kind::Kind;
+pub use inspect::outline::Outline;
 pub use inspect::stage::{Stage, StagedRun, Which};
 pub use inspect::trials::Trials;
 pub use open::machine_file::MachineFile;
@@ -52,5 +57,5 @@ pub use viewer::LivePage;
 /// Draws a plot of a table as the text of an SVG file; a column `paper_<y>` or
 /// `published_<y>` holds published points.
 pub fn svg(table: &Table, plot: &Plot) -> String {
-    results::chart::svg(table, &[], plot)
+    results::chart::svg(table, &[], plot, 1)
 }

@@ -53,7 +53,7 @@ fn experiments_are_refused_with_place_value_and_expectation() {
              count_start_up, processors, local_environments, cut, cells, patch_size, \
              emitter_patch_size, refine, hemisphere, interfaces, virtual_walls, mask_bits, source_split, overshoot, \
              ambient, reference, error_causes, accuracy, selection, ties, order, stop, merge_masks, mapping, radiosity_updates, \
-             reuse_shots, seed, compare_with, plots)",
+             reuse_shots, seed, speed_up_over, compare_with, plots)",
         ),
         (
             &format!("{{{good}, \"stop\": {{\"every\": 1}}}}"),

@@ -56,6 +56,7 @@ fn every_field_is_described_and_every_leaf_can_be_swept() {
             "source_split",
             "accuracy",
             "stop",
+            "speed_up_over",
             "compare_with",
             "plots"
         ]

@@ -8,6 +8,7 @@ mod show;
 
 use clap::Subcommand;
 
+pub use self::show::show;
 use crate::exit::Exit;
 
 #[derive(Subcommand)]

@@ -17,7 +17,12 @@ pub struct Arguments {
 
 /// Prints the machine.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
-    let open = MachineFile::open(&arguments.machine)?;
+    show(&arguments.machine)
+}
+
+/// A drawing of a machine, and its numbers.
+pub fn show(name: &str) -> Result<String, Exit> {
+    let open = MachineFile::open(name)?;
     let model = open.machine.network_model.map_or("auto", |model| model.name());
     let mut text = format!("{}\n{}\n\n", open.machine.title, drawing(&open.machine));
     let _ = writeln!(text, "Network model: {model}. Numbers, from {}:\n", open.label);

@@ -5,7 +5,7 @@ mod show;
 
 use clap::Subcommand;
 
-pub use self::show::meshed;
+pub use self::show::{meshed, show};
 use crate::exit::Exit;
 
 #[derive(Subcommand)]

@@ -58,6 +58,13 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     Ok(text)
 }
 
+/// The numbers of a scene.
+pub fn show(name: &str) -> Result<String, Exit> {
+    let open = OpenScene::load(name)?;
+    print_warnings(open.all_warnings());
+    Ok(numbers(&open, &meshed(&open).1))
+}
+
 /// The scene in its grid, meshed as one environment.
 pub fn meshed(open: &OpenScene) -> (Space, LocalEnvironment) {
     let space = Space::new(open.scene.clone(), open.cells);

@@ -34,7 +34,12 @@ pub enum On {
 }
 
 pub fn operations() -> impl Iterator<Item = &'static str> {
-    Operation::ALL.iter().map(|operation| operation.name())
+    operations_explained().map(|(name, _)| name)
+}
+
+/// The names of the operations, and what each is.
+pub fn operations_explained() -> impl Iterator<Item = (&'static str, &'static str)> {
+    Operation::ALL.iter().map(|operation| (operation.name(), operation.about()))
 }
 
 /// Checks that a machine has a price for every operation and, if it models them, a size for everything in a

@@ -17,7 +17,7 @@ use crate::files::counts::Triple;
 use crate::files::quantity::{Fraction, Length, Period};
 
 /// Fields of an experiment file in which a list does not make a sweep.
-pub const UNSWEPT: [&str; 4] = ["$schema", "title", "compare_with", "plots"];
+pub const UNSWEPT: [&str; 5] = ["$schema", "title", "speed_up_over", "compare_with", "plots"];
 
 /// Takes out of a point what its results are compared with, and plots: its light needs none of it.
 pub fn leave_out_comparisons(point: &mut Value) {
@@ -162,6 +162,11 @@ pub struct Experiment {
     /// Seed of every random choice.
     #[serde(default = "default_seed")]
     pub seed: u64,
+    /// Processors of the run that speed-ups are relative to, 1 by default. The published speed-ups are over one
+    /// processor: with another number they are left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1))]
+    pub speed_up_over: Option<u32>,
     /// A CSV file, relative to this one, with the columns scene, processors, time_s and speed_up:
     /// published figures to compare ours with.
     #[serde(default)]

@@ -7,6 +7,7 @@ use multicomputer::{LinkParameters, RouterStages, Trace, Workload};
 
 use crate::engine::simulator;
 use crate::files::find::Found;
+use crate::inspect::kind::Kind;
 use crate::open::machine_file::MachineFile;
 use crate::open::scene::{Scene, is_obj};
 use crate::planning::plan::Plan;
@@ -42,8 +43,8 @@ pub fn check(path: &Path) -> Result<Checked, Fault> {
         return Ok(format!("a trace, {} messages", trace.messages.len()).into());
     }
     let document = Document::parse(path.display().to_string(), text)?;
-    let has = |key: &str| document.value.get(key).is_some();
-    if has("scene") || has("plots") {
+    let kind = Kind::of(&document.value);
+    if kind == Some(Kind::Experiment) {
         let plan = Plan::read(path, &[], &Preparing { finding: false, ..Preparing::default() })?;
         let (runs, problems) = (plan.runs.len(), plan.problems.len());
         let s = |count| if count == 1 { "" } else { "s" };
@@ -54,10 +55,10 @@ pub fn check(path: &Path) -> Result<Checked, Fault> {
         );
         return Ok(Checked { what, warnings: plan.warnings });
     }
-    if has("obj") || has("made") {
+    if kind == Some(Kind::Scene) {
         return scene(path, "a scene");
     }
-    if has("processor") || has("network") || has("extends") {
+    if kind == Some(Kind::Machine) {
         let machine = MachineFile::open(&path.display().to_string())?.machine;
         let (compute, service) = (machine.compute_nodes(), machine.service_nodes());
         let what = format!("a machine, {compute} compute nodes and {service} service nodes");

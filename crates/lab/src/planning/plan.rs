@@ -43,6 +43,11 @@ pub struct Plan {
 }
 
 impl Plan {
+    /// Processors of the runs that speed-ups are relative to.
+    pub fn speed_up_base(&self) -> u32 {
+        self.runs[0].point.speed_up_over.unwrap_or(1)
+    }
+
     /// The same plan, whose title says what was changed: `path=value` arguments.
     pub fn changed(mut self, changes: &[String]) -> Plan {
         if !changes.is_empty() && !changes.iter().any(|change| change.starts_with("title=")) {

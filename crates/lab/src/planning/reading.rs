@@ -70,7 +70,7 @@ pub fn read_alone(mut document: Document) -> Result<(Document, Value), Fault> {
 }
 
 /// Applies `--set` arguments to an experiment and finds its runs.
-fn swept(document: &mut Document, arguments: &[String]) -> Result<Sweep, Fault> {
+pub fn swept(document: &mut Document, arguments: &[String]) -> Result<Sweep, Fault> {
     for argument in arguments {
         if let Some((_, value)) = argument.strip_prefix("machine.").and_then(|a| a.split_once('='))
         {

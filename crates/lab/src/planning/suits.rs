@@ -27,6 +27,9 @@ pub fn suits(typed: &Experiment, machine: &Machine) -> Result<(), WrongField> {
     if processors == 0 {
         return Err(("processors", "0; expected 1 or more".to_owned()));
     }
+    if typed.speed_up_over == Some(0) {
+        return Err(("speed_up_over", "0; expected 1 or more".to_owned()));
+    }
     if processors > environments {
         let message = format!("{processors} processors for {environments} local environments");
         return Err(("processors", message + "; expected at most one for each"));

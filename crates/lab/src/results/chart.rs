@@ -7,7 +7,7 @@ use crate::results::canvas::{self, Canvas, Drawn, GREY, INK, PALE, Side, px};
 use crate::results::label_places::places;
 use crate::results::layout::{Frame, HEAD, LETTER, Layout, SAMPLE, line_name};
 use crate::results::marks::{
-    self, BAND, draw_leader, draw_marks, draw_sample, end, fine, has_ideal,
+    self, BAND, Ideal, draw_leader, draw_marks, draw_sample, end, fine, ideal,
 };
 use crate::results::scale::Scale;
 use crate::results::series::{Drawing, Panel, Series};
@@ -17,12 +17,13 @@ use crate::table::axis_title::words;
 use crate::table::measure::Measure;
 use crate::table::runs_csv::Table;
 
-/// Draws a plot of the results as the text of an SVG file.
-pub fn svg(table: &Table, sweeps: &[String], plot: &Plot) -> String {
+/// Draws a plot of the results as the text of an SVG file. Speed-ups are over `base` processors.
+pub fn svg(table: &Table, sweeps: &[String], plot: &Plot, base: u32) -> String {
     let drawing = Drawing::of(table, sweeps, plot);
     let title = title(plot);
     let layout = Layout::of(&drawing, title.chars().count());
     let (x, y) = (x_scale(&drawing, plot), y_scale(&drawing, plot));
+    let ideal = ideal(plot, base, [x.ends(), y.ends()]);
     canvas::svg(layout.size, |canvas| {
         canvas.text(&title, (px(24), px(26)), 19, INK, Side::Right)?;
         for (number, panel) in drawing.panels.iter().enumerate() {
@@ -32,7 +33,7 @@ pub fn svg(table: &Table, sweeps: &[String], plot: &Plot) -> String {
             axes.draw(canvas, numbers, layout.turned)?;
             let name = (axes.frame.left, axes.frame.top - px(14));
             canvas.text(&layout.panel_name(&panel.name), name, 15, INK, Side::Right)?;
-            draw_panel(canvas, &axes, panel, plot)?;
+            draw_panel(canvas, &axes, panel, plot, ideal)?;
             if layout.is_single() {
                 draw_names(canvas, &axes, &layout, &drawing)?;
             } else {
@@ -43,7 +44,7 @@ pub fn svg(table: &Table, sweeps: &[String], plot: &Plot) -> String {
             draw_legend(canvas, &layout, &drawing)?;
         }
         draw_titles(canvas, &layout, &drawing, plot)?;
-        draw_key(canvas, &layout, &drawing, plot)
+        draw_key(canvas, &layout, &drawing, plot, ideal.is_some())
     })
 }
 
@@ -72,9 +73,15 @@ fn y_scale(drawing: &Drawing, plot: &Plot) -> Scale {
 }
 
 /// What is inside the axes, or why there is nothing.
-fn draw_panel(canvas: &Canvas, axes: &Axes, panel: &Panel, plot: &Plot) -> Drawn {
+fn draw_panel(
+    canvas: &Canvas,
+    axes: &Axes,
+    panel: &Panel,
+    plot: &Plot,
+    ideal: Option<Ideal>,
+) -> Drawn {
     if panel.empty.is_empty() {
-        return draw_marks(canvas, axes, panel, plot);
+        return draw_marks(canvas, axes, panel, plot, ideal);
     }
     let Frame { left, top, right, bottom } = axes.frame;
     canvas.blank([(left + px(1), top - px(1)), (right + px(1), bottom - px(1))])?;
@@ -159,7 +166,13 @@ fn draw_laws(canvas: &Canvas, axes: &Axes, panel: &Panel) -> Drawn {
 }
 
 /// What marks mean, in a row above the axes, where no line can run.
-fn draw_key(canvas: &Canvas, layout: &Layout, drawing: &Drawing, plot: &Plot) -> Drawn {
+fn draw_key(
+    canvas: &Canvas,
+    layout: &Layout,
+    drawing: &Drawing,
+    plot: &Plot,
+    ideal: bool,
+) -> Drawn {
     let y = px(HEAD - 18);
     let mut x = layout.whole().left;
     // Names an entry; the next one begins after it.
@@ -182,7 +195,7 @@ fn draw_key(canvas: &Canvas, layout: &Layout, drawing: &Drawing, plot: &Plot) ->
         sample(x, PUBLISHED, marks::WIDTHS.1, true)?;
         name(&mut x, drawing.publisher)?;
     }
-    if has_ideal(plot) {
+    if ideal {
         canvas.line([(x, y), (x + px(30), y)], PALE, 1.25)?;
         name(&mut x, "ideal")?;
     }
@@ -240,7 +253,7 @@ mod tests {
             .collect();
         let table = table(&["series", "x", "y"], &rows);
         let sweeps = ["series", "x"].map(str::to_owned);
-        let svg = svg(&table, &sweeps, &plot(r#"{"x": "x", "y": "y"}"#));
+        let svg = svg(&table, &sweeps, &plot(r#"{"x": "x", "y": "y"}"#), 1);
         for line in 0..STYLES {
             assert!(svg.contains(&format!("\nline {line}\n")), "{line}");
         }
@@ -260,11 +273,11 @@ mod tests {
         let columns = ["x", "y", "ending"];
         let empty =
             plot(r#"{"x": "x", "y": "y", "log_y": true, "lines": [{"y": 1, "label": "one"}]}"#);
-        let failed = svg(&table(&columns, &[row("failed"), row("failed")]), &[], &empty);
+        let failed = svg(&table(&columns, &[row("failed"), row("failed")]), &[], &empty, 1);
         assert!(failed.contains("All 2 runs failed."), "{failed}");
-        let agreed = svg(&table(&columns, &[row("agreed")]), &[], &empty);
+        let agreed = svg(&table(&columns, &[row("agreed")]), &[], &empty, 1);
         assert!(agreed.contains("No run has a number as y."), "{agreed}");
-        assert!(svg(&table(&columns, &[]), &[], &empty).contains("There are no runs."));
+        assert!(svg(&table(&columns, &[]), &[], &empty, 1).contains("There are no runs."));
     }
 
     #[test]
@@ -272,7 +285,7 @@ mod tests {
         let rows = [vec!["1".to_owned(), "3 %".to_owned()], vec!["2".to_owned(), "4 %".to_owned()]];
         let asked =
             r#"{"x": "time_s", "y": "share", "lines": [{"y": 9, "label": "goal"}, {"x": 1.5}]}"#;
-        let svg = svg(&table(&["time_s", "share"], &rows), &[], &plot(asked));
+        let svg = svg(&table(&["time_s", "share"], &rows), &[], &plot(asked), 1);
         for text in ["goal", "Time (s)", "Share (%)", "Share by time"] {
             assert!(svg.contains(text), "{text}: {svg}");
         }

@@ -6,9 +6,11 @@ use config::Document;
 use serde_json::{Map, Value};
 
 use crate::engine::simulator::On;
-use crate::experiment::fields::UNSWEPT;
 use crate::files::digest::sha256;
 use crate::planning::plan::Plan;
+
+/// Fields of an experiment that decide no figure.
+const PRESENTATION: [&str; 3] = ["$schema", "title", "plots"];
 
 /// The longest name of a folder that is made from arguments.
 const LONGEST: usize = 100;
@@ -45,7 +47,7 @@ pub fn difference_of_experiments(here: &Value, there: &Value) -> Option<String> 
         let fields = experiment.as_object_mut();
         fields
             .into_iter()
-            .for_each(|fields| fields.retain(|key, _| !UNSWEPT.contains(&key.as_str())));
+            .for_each(|fields| fields.retain(|key, _| !PRESENTATION.contains(&key.as_str())));
         experiment
     };
     named("", &without(here), &without(there))

@@ -17,6 +17,7 @@ use crate::planning::plan::Plan;
 use crate::results::chart;
 use crate::results::console::table_text;
 use crate::results::host_times;
+use crate::results::operations;
 use crate::results::recordings;
 use crate::results::repeats_csv;
 use crate::results::report;
@@ -111,15 +112,18 @@ impl Results {
         Ok(names)
     }
 
-    /// Draws plots and report into a folder, with the host times in it; returns the names of the files.
+    /// Writes what is made of runs.csv into a folder: the table of operations, plots and report, with the host times
+    /// in it; returns the names of the files.
     pub fn draw(&self, out: &Path) -> io::Result<Vec<String>> {
         let sweeps = self.sweeps();
-        let mut names = Vec::new();
+        let operations = operations::operations(&self.table, &sweeps).to_csv()?;
+        file::write(&out.join(operations::FILE), &operations)?;
+        let mut names = vec![operations::FILE.to_owned()];
         let mut drawings = Vec::new();
         let table = host_times::beside(&self.table, out);
         let plots = self.plots();
         for plot in &plots {
-            let svg = chart::svg(&table, &sweeps, plot);
+            let svg = chart::svg(&table, &sweeps, plot, self.speed_up_base());
             let name = format!("{}.svg", plot.stem());
             file::write(&out.join(&name), svg.as_bytes())?;
             names.push(name);
@@ -141,7 +145,9 @@ impl Results {
 
     /// The table for a terminal.
     pub fn text(&self) -> String {
-        table_text(&self.table, &self.sweeps()) + &cheapest::text(&self.table, &self.sweeps())
+        let sweeps = self.sweeps();
+        let base = self.speed_up_base();
+        table_text(&self.table, &sweeps, base.into()) + &cheapest::text(&self.table, &sweeps)
     }
 
     /// How many runs failed.
@@ -153,6 +159,12 @@ impl Results {
     pub fn sweeps(&self) -> Vec<String> {
         let names = self.manifest["sweeps"].as_array().into_iter().flatten();
         names.filter_map(|name| Some(name.as_str()?.to_owned())).collect()
+    }
+
+    /// The number of processors that speed-ups are over.
+    fn speed_up_base(&self) -> u32 {
+        let base = self.manifest["experiment"]["speed_up_over"].as_u64();
+        base.and_then(|base| u32::try_from(base).ok()).filter(|base| *base > 0).unwrap_or(1)
     }
 
     fn plots(&self) -> Vec<Plot> {

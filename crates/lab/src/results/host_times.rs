@@ -17,7 +17,7 @@ pub const FILE: &str = "host-times.json";
 pub fn beside(table: &Table, folder: &Path) -> Table {
     let times = Document::read(&folder.join(FILE)).map_or(Value::Null, |file| file.value);
     let mut table = table.clone();
-    for name in HOST_TIMES {
+    for (name, _) in HOST_TIMES {
         table.columns.push(HOST.to_owned() + name);
         let of_runs = times["runs"][name].as_array().filter(|runs| runs.len() == table.rows.len());
         for (run, row) in table.rows.iter_mut().enumerate() {

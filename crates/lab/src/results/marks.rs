@@ -23,8 +23,14 @@ const TURN: u32 = 9;
 pub const BAND: f64 = 0.18;
 
 /// Draws reference lines, bands, lines and points, each above the one before.
-pub fn draw_marks(canvas: &Canvas, axes: &Axes, panel: &Panel, plot: &Plot) -> Drawn {
-    draw_reference_lines(canvas, axes, plot)?;
+pub fn draw_marks(
+    canvas: &Canvas,
+    axes: &Axes,
+    panel: &Panel,
+    plot: &Plot,
+    ideal: Option<Ideal>,
+) -> Drawn {
+    draw_reference_lines(canvas, axes, plot, ideal)?;
     for series in &panel.series {
         draw_band(canvas, axes, series)?;
     }
@@ -49,18 +55,23 @@ pub fn fine(pattern: &[u32]) -> Vec<f64> {
     pattern.iter().map(|&pixels| f64::from(px(pixels))).collect()
 }
 
-/// Whether the speed-up that equals the number of processors is drawn.
-pub fn has_ideal(plot: &Plot) -> bool {
-    plot.x == "processors" && plot.y == "speed_up"
+/// The ends of the line of the ideal speed-up: processors, speed-up.
+pub type Ideal = [(f64, f64); 2];
+
+/// The ideal speed-up over `base` processors inside these ends of x and y; none if the plot is of something else, or
+/// the line is outside.
+pub fn ideal(plot: &Plot, base: u32, [[left, right], [low, high]]: [[f64; 2]; 2]) -> Option<Ideal> {
+    let base = f64::from(base);
+    let (from, to) = (left.max(low * base).max(0.0), right.min(high * base));
+    let of_speed_up = plot.x == "processors" && plot.y == "speed_up";
+    (of_speed_up && from < to).then(|| [from, to].map(|x| (x, x / base)))
 }
 
 /// The ideal speed-up, and the lines that the plot asks for with what they mean.
-fn draw_reference_lines(canvas: &Canvas, axes: &Axes, plot: &Plot) -> Drawn {
+fn draw_reference_lines(canvas: &Canvas, axes: &Axes, plot: &Plot, ideal: Option<Ideal>) -> Drawn {
     let ([x_low, x_high], [y_low, y_high]) = (axes.x.ends(), axes.y.ends());
-    if has_ideal(plot) {
-        let [from, to] =
-            [x_low.max(y_low).max(0.0), x_high.min(y_high)].map(|v| axes.clamped((v, v)));
-        canvas.line([from, to], PALE, 1.25)?;
+    if let Some(ends) = ideal {
+        canvas.line(ends.map(|end| axes.clamped(end)), PALE, 1.25)?;
     }
     for reference in &plot.lines {
         let ends = match (reference.x, reference.y) {
@@ -194,4 +205,22 @@ pub fn draw_leader(canvas: &Canvas, end: Spot, edge: i32, to: Spot, style: Style
     let begin = (end.0 + px(9), end.1);
     let spots: Vec<Spot> = [begin, (edge.max(begin.0), end.1), to].to_vec();
     canvas.line(spots, style.colour, 0.75)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ideal_speed_up_is_processors_over_the_base() {
+        let plot = |y: &str| -> Plot {
+            serde_json::from_str(&format!(r#"{{"x": "processors", "y": "{y}"}}"#)).unwrap()
+        };
+        let of = |base, axes| ideal(&plot("speed_up"), base, axes);
+        assert_eq!(of(1, [[0.0, 60.0], [0.0, 50.0]]), Some([(0.0, 0.0), (50.0, 50.0)]));
+        assert_eq!(of(8, [[0.0, 56.0], [0.0, 50.0]]), Some([(0.0, 0.0), (56.0, 7.0)]));
+        assert_eq!(of(8, [[1.0, 56.0], [0.5, 6.0]]), Some([(4.0, 0.5), (48.0, 6.0)]));
+        assert_eq!(of(1, [[32.0, 64.0], [0.0, 5.0]]), None);
+        assert_eq!(ideal(&plot("time_s"), 1, [[0.0, 60.0], [0.0, 50.0]]), None);
+    }
 }

@@ -13,6 +13,7 @@ pub mod layout; // Where the parts of a plot are.
 pub mod live_page; // The page that follows runs.
 pub mod marks; // The points and lines of a panel.
 pub mod networks; // Network models compared.
+pub mod operations; // The operations of runs, a row each.
 pub mod origin; // The experiment file that results were made from.
 pub mod pareto; // The Pareto front of points.
 pub mod power_law; // Power laws fitted to points.

@@ -11,6 +11,7 @@ use crate::experiment::sweep::in_words;
 use crate::results::console::{Line, lines};
 use crate::results::summary::Summary;
 use crate::table::cheapest;
+use crate::table::columns;
 use crate::table::runs_csv::Table;
 
 const STYLE: &str = include_str!("report.css");
@@ -29,7 +30,7 @@ pub fn html(
     recorded: Option<&ReportParts>,
 ) -> String {
     let lead = lead(manifest, runs);
-    let compared = Summary::of(runs).lines();
+    let compared = Summary::of(runs, sweeps).lines();
     let summary =
         compared.iter().map(|line| format!("<p class=\"summary\">{}</p>\n", escape(line)));
     let summary: String = summary.collect();
@@ -171,7 +172,7 @@ fn shown_columns(table: &Table) -> Vec<&str> {
 }
 
 fn table(names: &[&str], table: &Table) -> String {
-    let head: String = names.iter().map(|name| format!("<th>{}</th>", heading(name))).collect();
+    let head: String = names.iter().map(|name| heading(name)).collect();
     let mut rows = String::new();
     for row in &table.rows {
         let cells = names.iter().map(|name| format!("<td>{}</td>", escape(table.cell(row, name))));
@@ -252,8 +253,11 @@ fn files(manifest: &Value) -> String {
     )
 }
 
+/// The head of a column; what it holds is shown where the mouse rests on it.
 fn heading(column: &str) -> String {
-    escape(column).replace('_', " ")
+    let about = columns::about(column).map(|about| format!(" title=\"{}\"", escape(&about)));
+    let name = escape(column).replace('_', " ");
+    format!("<th{}>{name}</th>", about.unwrap_or_default())
 }
 
 fn escape(text: &str) -> String {

@@ -12,6 +12,7 @@ use crate::results::networks;
 use crate::run::runner::{Ending, Endings};
 use crate::table::column::{Column, Row};
 use crate::table::columns;
+use crate::table::comparison::Published;
 use crate::table::runs_csv::Table;
 
 pub fn run_table(plan: &Plan, endings: &Endings) -> Table {
@@ -19,9 +20,10 @@ pub fn run_table(plan: &Plan, endings: &Endings) -> Table {
     let header = columns::header(&shown, &plan.axes);
     let column = |name: &String| shown.iter().find(|column| column.name == name).copied();
     let cells: Vec<Option<&Column>> = header.iter().map(column).collect();
-    let one_processor = times_at_one(plan, endings, "processors", |point| point.processors);
+    let base = plan.speed_up_base();
+    let on_base = times_at(plan, endings, "processors", |point| point.processors == base);
     let one_environment =
-        times_at_one(plan, endings, "local_environments", |point| point.local_environments);
+        times_at(plan, endings, "local_environments", |point| point.local_environments == 1);
     let finest = networks::finest(plan, endings);
     let row = |(run, ending): (&Run, &Option<Ending>)| -> Vec<String> {
         let time_s = time(ending);
@@ -39,8 +41,8 @@ pub fn run_table(plan: &Plan, endings: &Endings) -> Table {
             input: plan.input(run),
             figures: ending.and_then(|ending| ending.as_ref().ok()),
             failure: ending.and_then(|ending| Some(ending.as_ref().err()?.as_str())),
-            published: plan.comparison.of(&run.point.scene, run.point.processors),
-            speed_up: over(&one_processor, "processors"),
+            published: published(plan, run),
+            speed_up: over(&on_base, "processors"),
             gain: over(&one_environment, "local_environments"),
             difference_from_finest: finest
                 .get(&all_else(plan, run, NETWORK_MODEL))
@@ -60,16 +62,25 @@ pub fn run_table(plan: &Plan, endings: &Endings) -> Table {
     Table { columns: header, rows }
 }
 
-/// Times of the runs for which a field is 1, by the values of all other swept fields, s.
+/// What was published of a run. Published speed-ups are over one processor.
+fn published(plan: &Plan, run: &Run) -> Published {
+    let published = plan.comparison.of(&run.point.scene, run.point.processors);
+    match plan.speed_up_base() {
+        1 => published,
+        _ => Published { speed_up: String::new(), ..published },
+    }
+}
+
+/// Times of the runs whose value of a field is `chosen`, by the values of all other swept fields, s.
 type Times = BTreeMap<Vec<usize>, f64>;
 
-fn times_at_one(
+fn times_at(
     plan: &Plan,
     endings: &Endings,
     field: &str,
-    value: fn(&Experiment) -> u32,
+    chosen: impl Fn(&Experiment) -> bool,
 ) -> Times {
-    let runs = plan.runs.iter().zip(&endings.runs).filter(|(run, _)| value(&run.point) == 1);
+    let runs = plan.runs.iter().zip(&endings.runs).filter(|(run, _)| chosen(&run.point));
     runs.filter_map(|(run, ending)| Some((all_else(plan, run, field), time(ending)?))).collect()
 }
 

@@ -7,7 +7,7 @@ pub struct Summary {
     /// Geometric mean of max(simulated/paper, paper/simulated) over the speed-ups on more than
     /// one processor; none if there are none to compare.
     pub speed_ups: Option<Spread>,
-    /// For each run on one processor: its scene, and its time over the paper's.
+    /// For each run on one processor: its group, and its time over the paper's.
     pub one_processor: Vec<(String, f64)>,
 }
 
@@ -19,21 +19,21 @@ pub struct Spread {
     pub mean: f64,
     /// The one farthest from 1, simulated over published.
     pub worst: f64,
-    /// Its scene and processors.
+    /// Its group and processors.
     pub worst_at: String,
 }
 
 impl Summary {
-    pub fn of(table: &Table) -> Summary {
+    pub fn of(table: &Table, sweeps: &[String]) -> Summary {
         let mut summary = Summary::default();
         let mut ratios = Vec::new();
         for row in &table.rows {
-            let (scene, processors) = (table.cell(row, "scene"), table.cell(row, "processors"));
+            let (group, processors) = (group(table, row, sweeps), table.cell(row, "processors"));
             if processors == "1" {
                 let time = ratio(table, row, "time_s", "paper_time_s");
-                summary.one_processor.extend(time.map(|ratio| (scene.to_owned(), ratio)));
+                summary.one_processor.extend(time.map(|ratio| (group, ratio)));
             } else if let Some(ratio) = ratio(table, row, "speed_up", "paper_speed_up") {
-                ratios.push((ratio, format!("{scene} on {processors}")));
+                ratios.push((ratio, format!("{group} on {processors}")));
             }
         }
         summary.speed_ups = spread(&ratios);
@@ -58,6 +58,14 @@ impl Summary {
         }
         lines
     }
+}
+
+/// The group of a row: its scene, and the values of other swept fields but the processors.
+pub fn group(table: &Table, row: &[String], sweeps: &[String]) -> String {
+    let others = sweeps.iter().filter(|name| *name != "scene" && *name != "processors");
+    let others = others.map(|name| format!("{name} {}", table.cell(row, name)));
+    let scene = table.cell(row, "scene").to_owned();
+    std::iter::once(scene).chain(others).collect::<Vec<_>>().join(", ")
 }
 
 /// Simulated over published, where the row has both.
@@ -88,21 +96,22 @@ mod tests {
 
     #[test]
     fn the_mean_takes_each_ratio_the_way_that_it_exceeds_1() {
-        let summary = Summary::of(&table(&[
+        let rows = table(&[
             ["a", "1", "9", "1", "10", "1"],
             ["a", "2", "5", "2", "10", "1"],
             ["a", "4", "5", "1", "10", "8"],
             ["a", "8", "5", "1", "", ""],
-        ]));
+        ]);
+        let summary = Summary::of(&rows, &["time_s".to_owned()]);
         let speed_ups = summary.speed_ups.unwrap();
-        assert_eq!(summary.one_processor, [("a".to_owned(), 0.9)]);
+        assert_eq!(summary.one_processor, [("a, time_s 9".to_owned(), 0.9)]);
         assert_eq!(speed_ups.cells, 2);
         assert!((speed_ups.mean - 4.0).abs() < 1e-12, "{speed_ups:?}");
-        assert_eq!((speed_ups.worst, speed_ups.worst_at.as_str()), (0.125, "a on 4"));
+        assert_eq!((speed_ups.worst, speed_ups.worst_at.as_str()), (0.125, "a, time_s 5 on 4"));
     }
 
     #[test]
     fn nothing_published_is_nothing_to_say() {
-        assert!(Summary::of(&table(&[["a", "1", "9", "1", "", ""]])).lines().is_empty());
+        assert!(Summary::of(&table(&[["a", "1", "9", "1", "", ""]]), &[]).lines().is_empty());
     }
 }

@@ -1,15 +1,19 @@
 //! Titles of axes: a column in words, with its unit.
 
-use crate::table::columns::{COLUMNS, HOST};
+use crate::table::columns;
 
-/// The title of an axis for a column: its name in words, and the unit of its cells or, if they have none, of the
-/// column.
-pub fn axis_title(column: &str, unit_of_cells: &str) -> String {
-    let words = words(column);
-    let unit = if unit_of_cells.is_empty() { unit(column) } else { unit_of_cells };
-    // "Message bytes" says it already.
-    let said = words.split(' ').any(|word| word == unit);
-    if unit.is_empty() || said { words } else { format!("{words} ({unit})") }
+/// The title of an axis for the product of these columns: their names in words, and the unit of its cells or, if they
+/// have none, those of the columns.
+pub fn axis_title(columns: &[&str], unit_of_cells: &str) -> String {
+    let units: Vec<&str> = columns.iter().filter_map(|column| unit(column)).collect();
+    let unit = if unit_of_cells.is_empty() { units.join(" × ") } else { unit_of_cells.to_owned() };
+    let names = names(columns);
+    if unit.is_empty() { names } else { format!("{names} ({unit})") }
+}
+
+/// The name of a product of columns for people, without units.
+pub fn names(columns: &[&str]) -> String {
+    columns.iter().map(|column| words(column)).collect::<Vec<_>>().join(" × ")
 }
 
 /// A column's name for people: without the field that holds it, and without its unit.
@@ -28,19 +32,13 @@ pub fn words(column: &str) -> String {
     }
 }
 
-/// The unit of a column's numbers: as its description says, or as its name ends. Empty if it has none.
-fn unit(column: &str) -> &'static str {
-    let about = COLUMNS.iter().find(|known| known.name == column).map_or("", |known| known.about);
-    let says = |unit: &str| {
-        about.split(". ").any(|sentence| sentence.trim_end_matches('.').ends_with(unit))
-    };
-    if column.ends_with("_s") || column.starts_with(HOST) || says(", s") {
-        "s"
-    } else if says(", bytes") {
-        "bytes"
-    } else {
-        ""
-    }
+/// The unit of a column that is shown beside its name: a count and a number need none. What is no column of runs.csv
+/// may have one at the end of its name.
+fn unit(column: &str) -> Option<&'static str> {
+    let by_name = || column.ends_with("_s").then_some("s");
+    columns::unit(column)
+        .or_else(by_name)
+        .filter(|unit| !["count", "number", "text"].contains(unit))
 }
 
 #[cfg(test)]
@@ -52,25 +50,22 @@ mod tests {
         for (column, cells, title) in [
             ("time_s", "", "time (s)"),
             ("start_up_s", "", "start up (s)"),
-            ("memory_high_water", "", "memory high water (bytes)"),
-            ("message_bytes", "", "message bytes"),
-            ("difference_from_finest", "%", "difference from finest (%)"),
+            ("memory_high_water", "", "memory high water (B)"),
+            ("message_bytes", "", "message bytes (B)"),
+            ("difference_from_finest", "", "difference from finest (%)"),
             ("machine.node_memory.installed", "MiB", "installed (MiB)"),
             ("host.cpu_s", "", "host CPU (s)"),
             ("operations.ray", "", "rays counted"),
-            ("speed_up", "", "speed-up"),
+            ("speed_up", "", "speed-up (ratio)"),
         ] {
-            assert_eq!(axis_title(column, cells), title);
+            assert_eq!(axis_title(&[column], cells), title);
         }
     }
 
-    /// A time without a unit would be a mistake of the list of columns.
+    /// A time in another unit would be a mistake of the list of columns.
     #[test]
-    fn every_time_has_a_unit() {
-        let times = COLUMNS.iter().filter(|column| column.about.contains("ime that"));
-        times.for_each(|column| {
-            let share = column.about.starts_with("Share");
-            assert!(share || unit(column.name) == "s", "{}", column.name);
-        });
+    fn every_time_is_in_seconds() {
+        let times = columns::explained().filter(|(name, ..)| name.ends_with("_s"));
+        assert!(times.map(|(name, unit, _)| assert_eq!(unit, "s", "{name}")).count() > 10);
     }
 }

@@ -12,12 +12,24 @@ use crate::table::comparison::Published;
 
 pub struct Column {
     pub name: &'static str,
-    /// What it holds, and in which unit.
+    /// Its unit, or else "ratio", "count", "number" or "text".
+    pub unit: &'static str,
+    /// What it holds, and where the paper has that, such as (§5.3).
     pub about: &'static str,
     /// Whether results have the column because of this run. One such run is enough.
     pub shown: fn(&Input) -> bool,
     /// The cell of a run; none leaves it empty.
     pub cell: fn(&Row) -> Option<String>,
+}
+
+pub const fn column(
+    name: &'static str,
+    unit: &'static str,
+    about: &'static str,
+    shown: fn(&Input) -> bool,
+    cell: fn(&Row) -> Option<String>,
+) -> Column {
+    Column { name, unit, about, shown, cell }
 }
 
 /// What is known of a run before it starts.
@@ -60,4 +72,17 @@ impl Row<'_> {
     pub fn causes(&self) -> Option<Causes> {
         self.errors()?.causes
     }
+}
+
+#[expect(clippy::needless_pass_by_value, reason = "numbers and texts alike")]
+pub fn text(value: impl ToString) -> Option<String> {
+    Some(value.to_string())
+}
+
+pub fn fixed(value: f64, decimals: usize) -> Option<String> {
+    Some(format!("{value:.decimals$}"))
+}
+
+pub fn scientific(value: f64) -> Option<String> {
+    Some(format!("{value:.6e}"))
 }

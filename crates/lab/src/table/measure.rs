@@ -1,6 +1,6 @@
 //! What an axis of a plot shows: a column of the results, or the product of several.
 
-use crate::table::axis_title::{axis_title, words};
+use crate::table::axis_title::{axis_title, names};
 use crate::table::runs_csv::Table;
 
 /// A column, or several with "*" between them, such as "patches*local_shots".
@@ -37,13 +37,12 @@ impl<'a> Measure<'a> {
 
     /// Its name for people, without units.
     pub fn words(&self) -> String {
-        capital(&self.0.iter().map(|column| words(column)).collect::<Vec<_>>().join(" × "))
+        capital(&names(&self.0))
     }
 
-    /// Its name with its unit, which for a single column may be that of its cells.
+    /// Its name with its unit, which may be that of its cells.
     pub fn title(&self, unit_of_cells: &str) -> String {
-        let titles = self.0.iter().map(|column| axis_title(column, unit_of_cells));
-        capital(&titles.collect::<Vec<_>>().join(" × "))
+        capital(&axis_title(&self.0, unit_of_cells))
     }
 }
 
@@ -74,7 +73,10 @@ mod tests {
     fn names_are_told_in_words() {
         let label = |name| Measure::of(name).title("");
         assert_eq!(label("time_s"), "Time (s)");
-        assert_eq!(label("speed_up"), "Speed-up");
+        assert_eq!(label("speed_up"), "Speed-up (ratio)");
+        assert_eq!(label("messages"), "Messages");
+        assert_eq!(label("message_bytes"), "Message bytes (B)");
+        assert_eq!(label("time_s*speed_up"), "Time × speed-up (s × ratio)");
         assert_eq!(label("stop.patch_threshold"), "Patch threshold");
         assert_eq!(label("host.cpu_s"), "Host CPU (s)");
         assert_eq!(label("operations.ray"), "Rays counted");

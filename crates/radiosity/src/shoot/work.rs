@@ -3,10 +3,10 @@
 use std::ops::{Add, AddAssign};
 
 macro_rules! operations {
-    ($($(#[$doc:meta])* $variant:ident $name:literal,)*) => {
+    ($(#[doc = $about:literal] $variant:ident $name:literal,)*) => {
         /// An operation that kernels count. Machine models give each a cost in cycles.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        pub enum Operation { $($(#[$doc])* $variant,)* }
+        pub enum Operation { $(#[doc = $about] $variant,)* }
 
         impl Operation {
             /// All operations, in the order of [`Work`].
@@ -15,6 +15,11 @@ macro_rules! operations {
             /// Its name in machine files.
             pub fn name(self) -> &'static str {
                 match self { $(Operation::$variant => $name,)* }
+            }
+
+            /// What it is, in a sentence.
+            pub fn about(self) -> &'static str {
+                match self { $(Operation::$variant => $about.trim_ascii(),)* }
             }
         }
     };
