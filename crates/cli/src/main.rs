@@ -18,6 +18,7 @@ mod man;
 mod named;
 mod plot;
 mod progress;
+mod provenance;
 mod reference;
 mod render;
 mod run;

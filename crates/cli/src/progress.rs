@@ -2,17 +2,22 @@
 //! a line every few seconds.
 
 use std::collections::BTreeMap;
-use std::io::IsTerminal;
+use std::fs::File;
+use std::io::{IsTerminal, Write};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
-use lab::{Counters, Event, Plan};
+use lab::{Counters, Estimator, Event, Left, Plan, event_log};
 
 use crate::exit::print_note;
 
 /// Steps of the bar per run.
 const STEPS: u64 = 1000;
+
+/// Estimates whose ends differ by a larger factor are not shown, by a smaller one as one number.
+const VAGUE: f64 = 10.0;
+const CLEAR: f64 = 2.0;
 
 /// Seconds between lines where there is no bar; short experiments print none.
 const BETWEEN_LINES: u64 = 5;
@@ -31,7 +36,6 @@ pub struct Progress {
     counts: Mutex<Counts>,
 }
 
-#[derive(Default)]
 struct Counts {
     found: u64,
     finished: u64,
@@ -41,13 +45,17 @@ struct Counts {
     shots: BTreeMap<usize, u64>,
     /// The state of each run that is under way.
     counters: BTreeMap<usize, Counters>,
-    /// Shots of the last finished run of each problem: an estimate for its next run.
-    expected: BTreeMap<usize, u64>,
+    estimator: Estimator,
+    /// The last estimate, and the second in which the next one is due.
+    left: Option<Left>,
+    next: f64,
+    /// Where events are recorded.
+    log: Option<File>,
 }
 
 impl Progress {
-    /// The progress of a plan's runs; shows nothing if `quiet`.
-    pub fn new(plan: Arc<Plan>, quiet: bool) -> Progress {
+    /// The progress of a plan's runs on `threads` threads; shows nothing if `quiet`. Events go to a log, if any.
+    pub fn new(plan: Arc<Plan>, threads: usize, quiet: bool, log: Option<File>) -> Progress {
         let steps = plan.runs.len() as u64 * STEPS;
         let bar = ProgressBar::with_draw_target(Some(steps), target(quiet));
         let style = ProgressStyle::with_template("{bar:36} {prefix}, {elapsed} elapsed{msg}");
@@ -57,7 +65,18 @@ impl Progress {
         }
         bar.set_prefix(format!("0 of {} runs", plan.runs.len()));
         let lines = !quiet && !std::io::stderr().is_terminal();
-        Progress { plan, bar, lines, counts: Mutex::default() }
+        let counts = Counts {
+            found: 0,
+            finished: 0,
+            lines: 0,
+            shots: BTreeMap::new(),
+            counters: BTreeMap::new(),
+            estimator: Estimator::of(&plan, threads),
+            left: None,
+            next: 0.0,
+            log,
+        };
+        Progress { plan, bar, lines, counts: Mutex::new(counts) }
     }
 
     /// Whether it shows the state of runs under way.
@@ -67,14 +86,20 @@ impl Progress {
 
     pub fn update(&self, event: Event) {
         let mut counts = self.counts.lock().unwrap_or_else(PoisonError::into_inner);
+        let elapsed = self.bar.elapsed().as_secs_f64();
+        counts.estimator.note(elapsed, event);
+        if let (Some(log), Some(line)) = (&mut counts.log, event_log::line(elapsed, event)) {
+            // A log that cannot be written is no reason to end the sweep.
+            let _ = log.write_all(line.as_bytes());
+        }
         match event {
-            Event::Found => counts.found += 1,
-            Event::Shots { run, shots } => _ = counts.shots.insert(run, shots),
+            Event::Found { .. } => counts.found += 1,
+            Event::Started { run } => _ = counts.shots.insert(run, 0),
+            Event::Shots { run, done } => _ = counts.shots.insert(run, done.shots),
             Event::Counters { run, counters } => _ = counts.counters.insert(run, counters),
-            Event::Finished { run } => {
+            Event::Finished { run, .. } => {
                 counts.counters.remove(&run);
-                let shots = counts.shots.remove(&run).unwrap_or_default();
-                counts.expected.insert(self.plan.runs[run].problem, shots);
+                counts.shots.remove(&run);
                 counts.finished += 1;
             }
         }
@@ -86,29 +111,30 @@ impl Progress {
     }
 
     fn show(&self, counts: &mut Counts) {
-        let under_way = counts.shots.iter().map(|(run, &shots)| {
-            let expected = counts.expected.get(&self.plan.runs[*run].problem);
-            // Without a finished run of its problem there is no estimate.
-            expected.map_or(0, |&expected| (STEPS * shots / expected.max(1)).min(STEPS * 9 / 10))
-        });
         let ended = counts.found + counts.finished;
-        self.bar.set_position(ended * STEPS + under_way.sum::<u64>());
         let shots: u64 = counts.shots.values().sum();
         let runs = self.plan.runs.len();
         let message = format!("{ended} of {runs} runs");
-        // There is no estimate before something is done.
-        let left = (self.bar.position() > 0).then(|| HumanDuration(self.bar.eta()));
+        let elapsed = self.bar.elapsed().as_secs_f64();
+        if elapsed >= counts.next {
+            (counts.left, counts.next) = (counts.estimator.left(elapsed), elapsed + 1.0);
+        }
+        let share = match counts.left {
+            Some(Left { likely, .. }) => elapsed / (elapsed + likely).max(f64::MIN_POSITIVE),
+            None => ended as f64 / runs as f64,
+        };
+        self.bar.set_position((share * (runs as u64 * STEPS) as f64) as u64);
+        let left =
+            counts.left.and_then(in_words).map_or(String::new(), |left| format!(", {left} left"));
         let due = self.bar.elapsed().as_secs() / BETWEEN_LINES;
         if self.lines && due > counts.lines {
             counts.lines = due;
             let elapsed = HumanDuration(self.bar.elapsed());
-            let left = left.as_ref().map_or(String::new(), |left| format!(", {left} left"));
             print_note(&format!(
                 "{message}, {shots} shots in those under way, {elapsed} elapsed{left}"
             ));
         }
         self.bar.set_prefix(message);
-        let left = left.map_or(String::new(), |left| format!(", {left:#} left"));
         self.bar.set_message(left + &self.under_way(&counts.counters));
     }
 
@@ -134,6 +160,17 @@ impl Progress {
             table += &format!("\nand {} more", counters.len() - MOST_LINES);
         }
         table
+    }
+}
+
+/// An estimate in words: a range while it is unsure, nothing while it is vague.
+fn in_words(left: Left) -> Option<String> {
+    let words = |seconds: f64| HumanDuration(Duration::from_secs_f64(seconds.clamp(0.0, 1e9)));
+    let Left { least, likely, most } = left;
+    match most / least {
+        factor if factor <= CLEAR => Some(format!("about {}", words(likely))),
+        factor if factor <= VAGUE => Some(format!("{} to {}", words(least), words(most))),
+        _ => None,
     }
 }
 

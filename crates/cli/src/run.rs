@@ -1,5 +1,7 @@
 //! `virtwall run`: carries out an experiment and writes its results.
 
+use std::fs::File;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -16,6 +18,7 @@ use crate::files::make_folder;
 use crate::live;
 use crate::named::not_an_experiment;
 use crate::progress::{Pilots, Progress};
+use crate::provenance::provenance;
 use crate::threads::Threads;
 
 #[derive(Args)]
@@ -70,6 +73,9 @@ pub struct Arguments {
     viewer: Viewing,
     #[command(flatten)]
     live: live::Serving,
+    /// Write the events from which estimates of what is left are made to this file
+    #[arg(long, value_name = "FILE", hide = true)]
+    log_events: Option<PathBuf>,
     /// Print only errors: no warnings, no progress, no table
     #[arg(long, short)]
     quiet: bool,
@@ -112,7 +118,7 @@ enum FormatArgument {
 
 /// Runs the experiment; returns the table of its results.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
-    let clock = HostClock::start();
+    let (clock, provenance) = (HostClock::start(), provenance());
     let network = network(arguments)?;
     let set: Vec<String> = arguments.set.iter().cloned().chain(network).collect();
     let short = arguments.network.iter().map(|model| format!("network={model}"));
@@ -157,7 +163,9 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let claim = Claim::of(&out).map_err(Exit::bad_input)?;
 
     let viewing = arguments.viewer.clone();
-    let progress = Arc::new(Progress::new(Arc::clone(&plan), arguments.quiet));
+    let log = arguments.log_events.as_deref().map(|path| event_log(path, &plan, threads));
+    let log = log.transpose()?;
+    let progress = Arc::new(Progress::new(Arc::clone(&plan), threads, arguments.quiet, log));
     let (fresh, counters) = (arguments.fresh, progress.shows_counters());
     let feed = live.as_ref().map(|live| live.feed());
     let options =
@@ -170,7 +178,8 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     progress.end();
 
     let results = Results::of(&plan, &endings, &options).map_err(Exit::failure)?;
-    lab::write_host_times(&out, &endings, clock.seconds(), threads).map_err(Exit::failure)?;
+    lab::write_host_times(&out, &endings, clock.seconds(), threads, &provenance)
+        .map_err(Exit::failure)?;
     lab::write_origin(&out, &file).map_err(Exit::failure)?;
     results.write(&out).map_err(Exit::failure)?;
     drop(claim);
@@ -240,6 +249,16 @@ fn open_shot_files(folder: &Path) -> Result<ShotFiles, Exit> {
     ShotFiles::open(folder).map_err(|error| {
         Exit::bad_input(format!("{}: cannot make a folder for shots: {error}", folder.display()))
     })
+}
+
+/// A new file of events that begins with what is known of a plan's runs.
+fn event_log(path: &Path, plan: &Plan, threads: usize) -> Result<File, Exit> {
+    let start = |mut file: File| {
+        file.write_all(lab::event_log::head(plan, threads).as_bytes())?;
+        Ok(file)
+    };
+    let made = File::create(path).and_then(start);
+    made.map_err(|error| Exit::bad_input(format!("{}: {error}", path.display())))
 }
 
 /// A line with the numbers of shots found in memory, found on disk, and cast.

@@ -191,6 +191,12 @@ fn a_killed_run_goes_on_where_it_was() {
     assert_eq!(output(&project, &["run", "experiments/x.json", "--out", "whole"]).0, 0);
     // Finished runs were not done again: what they took is what they took before.
     let times = json(&fs::read_to_string(project.path("results/x/host-times.json")).unwrap());
+    let made_by = &times["provenance"];
+    assert!(made_by["start_unix_s"].as_u64().unwrap() > 1_700_000_000, "{made_by}");
+    assert_eq!(made_by["command"][1], "run");
+    for name in ["commit", "compiler", "operating_system", "architecture"] {
+        assert!(!made_by[name].as_str().unwrap().is_empty(), "{made_by}");
+    }
     let times = times["runs"]["cpu_s"].as_array().unwrap();
     assert!(took.iter().all(|took| times.contains(took)), "{took:?} {times:?}");
     // The report's viewer shows runs from before and after: those are made again to be recorded.
@@ -220,6 +226,7 @@ fn on_threads_the_light_is_the_same_and_no_time_is_virtual() {
         (column("time_s"), light)
     };
     let (time, [absorbed, unshot, in_transit, patches]) = read("threads", "threads");
+    on_threads_nothing_is_measured_in_virtual_time(&project);
     let (_, [simulated, left, ..]) = read("simulation", "simulation");
     assert_eq!(time, ["", "", ""]);
     for i in 0..3 {
@@ -229,6 +236,37 @@ fn on_threads_the_light_is_the_same_and_no_time_is_virtual() {
         let difference = (absorbed[i] - simulated[i]).abs();
         let open = left[i].max(unshot[i] + in_transit[i]);
         assert!(difference <= open + 1e-9, "{absorbed:?} {simulated:?}");
+    }
+}
+
+/// On a machine that models everything, no column of time has a number; what would be drawn of it says why not.
+fn on_threads_nothing_is_measured_in_virtual_time(project: &Project) {
+    let machines = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines");
+    let machine = |name: &str| machines.join(name).display().to_string();
+    let plots = r#"plots=[{"x":"processors","y":"time_s"},{"x":"processors","y":"messages"},{"x":"processors","y":"host.clock_s"}]"#;
+    for name in ["paragon-display", "paragon-gp16", "paragon-osf1-early", "ultra1", "cluster-64"] {
+        let machine = format!("machine=\"{}\"", machine(&format!("{name}.json")));
+        let on = ["--on", "threads", "--replace", "--out", "all"];
+        let set = ["--set", &machine, "--set", "processors=1", "--set", plots];
+        let arguments = [&["run", "experiments/x.json"], &on[..], &set[..]].concat();
+        let (code, text, stderr) = output(project, &arguments);
+        assert_eq!((code, stderr.as_str()), (0, ""), "{name}");
+        assert!(text.contains("\nThreads of this host have no virtual time: "), "{text}");
+        let read = |file: &str| fs::read_to_string(project.path("all").join(file)).unwrap();
+        let text = read("runs.csv");
+        let mut csv = csv::Reader::from_reader(text.as_bytes());
+        let header = csv.headers().unwrap().clone();
+        for row in csv.records().map(Result::unwrap) {
+            for (column, cell) in header.iter().zip(&row) {
+                let of_time = ["_s", "_fraction", "speed_up", "efficiency", "gain"];
+                let is_virtual = of_time.iter().any(|end| column.ends_with(end));
+                assert!(!is_virtual || cell.is_empty(), "{name}: {column} {cell}");
+            }
+        }
+        let says = |file: &str| read(file).contains("(no virtual time on threads)");
+        assert!(says("time_s-by-processors.svg") && says("report.html"));
+        assert!(!says("messages-by-processors.svg") && !says("host.clock_s-by-processors.svg"));
+        assert!(read("report.html").contains("Threads of this host have no virtual time: "));
     }
 }
 

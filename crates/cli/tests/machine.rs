@@ -244,12 +244,40 @@ fn a_machine_is_shown_and_measured() {
     assert!(text.contains("\n     4096       105.06      38.99"), "{text}");
     assert!(text.contains("Published: latency 42 µs, bandwidth 65 MB/s."), "{text}");
     let svg = fs::read_to_string(project.path("bench/megabytes_a_second-by-bytes.svg")).unwrap();
-    assert!(svg.contains("published"));
+    assert!(svg.contains("published") && svg.contains("model loggp"));
 
     let (code, text, _) = virtwall(&root(), &["machine", "bench", "paragon-osf1-early"]);
     assert_eq!(code, 0);
     // All nodes send four messages of 1 MiB before they read one, into buffers of 1 MiB.
     assert!(text.contains("\n  1048576     32358.40      32.41     deadlock"), "{text}");
+}
+
+/// Answers on several messages at once say what their model leaves out. The bytes that a node receives a second
+/// from many senders are bounded by its port.
+#[test]
+fn a_model_without_contention_says_so() {
+    let bench = |machine: &str, model: &str| {
+        let (code, text, _) = virtwall(&root(), &["machine", "bench", machine, "--network", model]);
+        assert_eq!(code, 0, "{machine}, {model}");
+        text
+    };
+    let numbers = |text: &str| -> Vec<f64> {
+        let line = text.lines().find(|line| line.trim_start().starts_with("1048576 ")).unwrap();
+        line.split_whitespace().map(|cell| cell.parse().unwrap()).collect()
+    };
+    for machine in ["paragon-xps", "paragon-1024", "cluster-64", "workstations", "origin2000"] {
+        let text = bench(machine, "loggp");
+        assert!(text.contains("\nModel loggp has no contention in links: "), "{text}");
+        assert_eq!(text.contains("; --network wormhole"), machine != "origin2000", "{text}");
+        assert!(!text.contains("In the hot spot"), "{text}");
+        let [bytes, _, one, _, each] = numbers(&text)[..] else { panic!("{text}") };
+        assert!(bytes / each < 1.05 * one, "{text}");
+        assert!(bench(machine, "ideal").contains("\nModel ideal has no cost and no contention: "));
+    }
+    let paced = bench("paragon-xps", "wormhole");
+    let sentence = "In the hot spot a node receives 173 MB/s, from one sender 65 MB/s: a sender's";
+    assert!(paced.contains(sentence) && !paced.contains("Model "), "{paced}");
+    assert!(!bench("cluster-64", "wormhole").contains("In the hot spot"));
 }
 
 #[test]

@@ -21,9 +21,9 @@ fn carried_out(plan: &Plan, out: &Path, options: &Options) -> (Results, usize, u
     let counts = Arc::new((AtomicUsize::new(0), AtomicUsize::new(0)));
     let watched = Arc::clone(&counts);
     let watch = Arc::new(move |event| match event {
-        Event::Found => _ = watched.0.fetch_add(1, Ordering::Relaxed),
+        Event::Found { .. } => _ = watched.0.fetch_add(1, Ordering::Relaxed),
         Event::Finished { .. } => _ = watched.1.fetch_add(1, Ordering::Relaxed),
-        Event::Shots { .. } | Event::Counters { .. } => {}
+        Event::Shots { .. } | Event::Counters { .. } | Event::Started { .. } => {}
     });
     let endings = carry_out(plan, out, options, watch).unwrap();
     let results = Results::of(plan, &endings, options).unwrap();

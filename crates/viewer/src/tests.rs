@@ -76,7 +76,7 @@ fn observed(
         processors,
         rules,
         kept: Arc::new(KeptShots::new(1 << 30)),
-        on_shot: Arc::new(|| ()),
+        on_shot: Arc::new(|_| ()),
     };
     simulate_observed(&run, machine, machine.network(), Some(observer)).unwrap()
 }

@@ -12,7 +12,7 @@ mod run; // what is to be run, and its outcome
 mod walls; // virtual walls, the method that masks replaced
 mod wire; // the messages, and their bytes
 
-pub use casting::{Archive, Helpers, KeptShots, Memory, ShotCounts, ShotKey};
+pub use casting::{Archive, Helpers, KeptShots, Memory, ShotCounts, ShotKey, ShotMeter};
 pub use instants::{Instant, visit_instants, visit_stops};
 pub use observe::{
     Activity, EnergyAt, EnergyLedger, MessageRecord, NodeRecord, Observer, Observers, Recording,

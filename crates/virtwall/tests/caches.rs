@@ -32,7 +32,7 @@ fn rooms(processors: usize) -> Run {
         // What is collected as time goes by would differ.
         rules: Rules { collect_every: Duration::from_seconds_f64(1e6), ..rules() },
         kept: Arc::new(KeptShots::new(1 << 30)),
-        on_shot: Arc::new(|| ()),
+        on_shot: Arc::new(|_| ()),
     }
 }
 

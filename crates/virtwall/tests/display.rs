@@ -18,7 +18,7 @@ fn run(processors: usize) -> Run {
         processors,
         rules: rules(),
         kept: Arc::new(KeptShots::new(1 << 30)),
-        on_shot: Arc::new(|| ()),
+        on_shot: Arc::new(|_| ()),
     }
 }
 

@@ -117,7 +117,7 @@ proptest! {
             processors,
             rules,
             kept: Arc::new(KeptShots::new(64 << 20)),
-            on_shot: Arc::new(|| ()),
+            on_shot: Arc::new(|_| ()),
         };
         match simulate(&run, &machine) {
             Ok(outcome) => {

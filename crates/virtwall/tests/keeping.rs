@@ -12,14 +12,14 @@ use std::time::Duration;
 
 use common::{paragon, rules, same, two_rooms_cut};
 use virtwall::{
-    Archive, Helpers, KeptShots, Memory, Outcome, Rules, Run, ShotCounts, ShotKey, simulate,
+    Archive, Helpers, KeptShots, Memory, Outcome, Rules, Run, ShotCounts, ShotKey, Source, simulate,
 };
 
 /// Shots on the simulated Paragon, 4 processors, by `kept`.
 fn outcome(kept: &Arc<KeptShots>, rules: Rules) -> Outcome {
     let problem = two_rooms_cut([4, 2, 1]);
     let run =
-        Run { problem, processors: 4, rules, kept: Arc::clone(kept), on_shot: Arc::new(|| ()) };
+        Run { problem, processors: 4, rules, kept: Arc::clone(kept), on_shot: Arc::new(|_| ()) };
     simulate(&run, &paragon()).unwrap()
 }
 
@@ -94,7 +94,7 @@ fn shots_are_cast_ahead() {
     let kept = KeptShots::sharing(&memory, &helpers, Some(Box::new(archive.clone())));
     let (asked, ahead) = (AtomicUsize::new(0), Arc::new(AtomicBool::new(false)));
     let seen = Arc::clone(&ahead);
-    let on_shot = Arc::new(move || {
+    let on_shot = Arc::new(move |_: &Source| {
         let asked = asked.fetch_add(1, Relaxed) + 1;
         if !seen.load(Relaxed) {
             std::thread::sleep(Duration::from_millis(1));

@@ -15,7 +15,7 @@ fn outcome(problem: &Arc<Problem>, patch_threshold: f64, shooting: Shooting) -> 
         processors: problem.environments.len(),
         rules: Rules { patch_threshold, shooting, ..rules() },
         kept: Arc::new(KeptShots::new(64 << 20)),
-        on_shot: Arc::new(|| ()),
+        on_shot: Arc::new(|_| ()),
     };
     let outcome = simulate(&run, &paragon()).unwrap();
     assert!(outcome.energy.error() < 1e-12, "{:?}", outcome.energy);

@@ -37,7 +37,7 @@ fn run(problem: &Arc<Problem>, bytes: usize) -> Run {
         processors: problem.environments.len(),
         rules: Rules { patch_threshold: 1e-3, ..rules() },
         kept: Arc::new(KeptShots::new(bytes)),
-        on_shot: Arc::new(|| ()),
+        on_shot: Arc::new(|_| ()),
     }
 }
 

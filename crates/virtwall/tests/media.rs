@@ -52,7 +52,7 @@ fn run(problem: Problem, rules: Rules) -> Run {
         problem: Arc::new(problem),
         rules,
         kept: Arc::new(KeptShots::new(1 << 28)),
-        on_shot: Arc::new(|| ()),
+        on_shot: Arc::new(|_| ()),
     }
 }
 

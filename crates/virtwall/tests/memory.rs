@@ -63,7 +63,7 @@ fn bytes(floors: u16) -> [f64; 3] {
     HEAP.reset_peak_usage();
     let (problem, kept) = (Arc::clone(&problem), Arc::new(KeptShots::new(0)));
     let patches = problem.patches();
-    let run = Run { problem, processors: 56, rules, kept, on_shot: Arc::new(|| ()) };
+    let run = Run { problem, processors: 56, rules, kept, on_shot: Arc::new(|_| ()) };
     simulate(&run, &machine()).unwrap();
     [ready - before, HEAP.peak_usage() - ready, patches].map(|count| count as f64)
 }

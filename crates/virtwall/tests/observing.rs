@@ -23,7 +23,7 @@ fn run(processors: usize, rules: Rules) -> Run {
         processors,
         rules,
         kept: Arc::new(KeptShots::new(1 << 30)),
-        on_shot: Arc::new(|| ()),
+        on_shot: Arc::new(|_| ()),
     }
 }
 

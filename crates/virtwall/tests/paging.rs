@@ -29,7 +29,7 @@ fn run(problem: Problem) -> Run {
         processors: 1,
         rules: rules(),
         kept: Arc::new(KeptShots::new(1 << 30)),
-        on_shot: Arc::new(|| ()),
+        on_shot: Arc::new(|_| ()),
     }
 }
 

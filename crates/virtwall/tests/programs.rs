@@ -11,8 +11,8 @@ use common::{grey, paragon, problem, rules, same, scene, sides, two_rooms_cut};
 use desim::{Duration, Time};
 use multicomputer::{ContentionFree, Delivery, Formula, Ideal, Machine, Message};
 use virtwall::{
-    Ending, KeptShots, Outcome, Problem, ProgramError, Rules, Run, RunError, Shooting, SourceSplit,
-    most_shots_in_sequence, run_on_threads, simulate, simulate_observed,
+    Ending, KeptShots, Outcome, Problem, ProgramError, Rules, Run, RunError, Shooting, Source,
+    SourceSplit, most_shots_in_sequence, run_on_threads, simulate, simulate_observed,
 };
 
 fn run(problem: &Arc<Problem>, processors: usize, rules: Rules) -> Run {
@@ -21,7 +21,7 @@ fn run(problem: &Arc<Problem>, processors: usize, rules: Rules) -> Run {
         processors,
         rules,
         kept: Arc::new(KeptShots::new(1 << 30)),
-        on_shot: Arc::new(|| ()),
+        on_shot: Arc::new(|_| ()),
     }
 }
 
@@ -89,7 +89,8 @@ fn threads_and_simulation_find_the_same_light() {
 #[test]
 fn a_thread_that_panics_ends_the_run() {
     let shots = AtomicU64::new(0);
-    let on_shot = move || assert!(shots.fetch_add(1, Ordering::Relaxed) < 10, "as it should");
+    let on_shot =
+        move |_: &Source| assert!(shots.fetch_add(1, Ordering::Relaxed) < 10, "as it should");
     let problem = two_rooms_cut([4, 2, 1]);
     let run = Run { on_shot: Arc::new(on_shot), ..run(&problem, 4, rules()) };
     assert!(matches!(run_on_threads(&run), Err(RunError::Thread)));

@@ -41,7 +41,7 @@ fn run(problem: Problem, processors: usize, rules: Rules) -> Run {
         processors,
         rules,
         kept: Arc::new(KeptShots::new(1 << 28)),
-        on_shot: Arc::new(|| ()),
+        on_shot: Arc::new(|_| ()),
     }
 }
 

@@ -9,7 +9,7 @@ use lab::{MachineFile, Plot, Table};
 use multicomputer::{KernelError, Machine, Network, NetworkModel, exchange, hot_spot, ping_pong};
 use serde_json::json;
 
-use super::network::NetworkArgument;
+use super::network::{NetworkArgument, caveat};
 use crate::exit::Exit;
 use crate::files::{make_folder, write};
 
@@ -54,7 +54,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let table = Table { columns: columns.map(str::to_owned).to_vec(), rows };
     let text = text(&machine, model, &table);
     let Some(out) = &arguments.out else { return Ok(text) };
-    draw(&table, out)?;
+    draw(&table, model, out)?;
     Ok(format!("{text}\nTable and plots are in {}.\n", out.display()))
 }
 
@@ -103,10 +103,28 @@ fn text(machine: &Machine, model: NetworkModel, table: &Table) -> String {
     if !published.is_empty() {
         let _ = writeln!(text, "\nPublished: {}.", published.join(", "));
     }
+    let notes = [caveat(model, machine), faster_than_alone(table)];
+    notes.into_iter().flatten().for_each(|note| text += &format!("\n{note}\n"));
     text
 }
 
-fn draw(table: &Table, out: &Path) -> Result<(), Exit> {
+/// Says so if a node receives from several senders more bytes a second than from one.
+fn faster_than_alone(table: &Table) -> Option<String> {
+    let row = table.rows.last()?;
+    let number = |column| table.number(row, column);
+    let (bytes, each) = (number("bytes")?, number("hot_spot_microseconds")?);
+    let (all, one) = (bytes / each, number("megabytes_a_second")?);
+    // A megabyte per second is a byte per microsecond. The last digits of short times are rounded.
+    (each > 0.0 && all > 1.1 * one).then(|| {
+        format!(
+            "In the hot spot a node receives {all:.0} MB/s, from one sender {one:.0} MB/s: a sender's software \
+             limits it, and messages of several senders arrive at the pace of links (choice C20)."
+        )
+    })
+}
+
+/// Draws the table; titles name the model, on which the times of several messages at once depend.
+fn draw(table: &Table, model: NetworkModel, out: &Path) -> Result<(), Exit> {
     make_folder(out, "results")?;
     write(&out.join("bench.csv"), table.to_csv().map_err(Exit::failure)?)?;
     for (y, title) in [
@@ -115,6 +133,7 @@ fn draw(table: &Table, out: &Path) -> Result<(), Exit> {
         ("exchange_microseconds", "Exchange of every node with four neighbours"),
         ("hot_spot_microseconds", "All nodes to one: time per message"),
     ] {
+        let title = format!("{title}, model {model}");
         let plot = json!({ "x": "bytes", "y": y, "title": title, "log_x": true, "log_y": true });
         let plot: Plot = serde_json::from_value(plot).map_err(Exit::failure)?;
         write(&out.join(format!("{}.svg", plot.stem())), lab::svg(table, &plot))?;

@@ -64,7 +64,7 @@ impl Explained<'_> {
     fn run(&self, point: &Experiment) -> Result<Vec<Rgb>, String> {
         let mut machine = self.machine.clone();
         machine.network_model = Some(NetworkModel::Ideal);
-        let run = simulator::run(self.problem, point, self.kept, Arc::new(|| ()));
+        let run = simulator::run(self.problem, point, self.kept, Arc::new(|_| ()));
         let (_, radiosity) = simulator::carry_out(&run, point, On::Simulation, &machine, 0, None)?;
         Ok(radiosity.concat())
     }

@@ -201,7 +201,7 @@ impl<'a> Pilots<'a> {
         let point = Experiment { processors: 1, reference: None, ..self.point(&knobs)? };
         let share = self.share(&knobs)?;
         let Prepared { problem, overlaps, kept, .. } = self.prepared(&knobs)?;
-        let run = simulator::run(&problem, &point, &kept, Arc::new(|| ()));
+        let run = simulator::run(&problem, &point, &kept, Arc::new(|_| ()));
         let thresholds: Vec<f64> = (0..=steps).map(|step| threshold(step) * share).collect();
         let mut stops = simulator::stops(&run, &point, self.machine, &thresholds)?;
         stops.iter_mut().for_each(|stop| stop.radiosity = overlaps.means(&stop.radiosity));

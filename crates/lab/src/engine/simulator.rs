@@ -12,7 +12,7 @@ use radiosity::{Operation, Rgb};
 use serde::Serialize;
 use virtwall::{
     Ending, Instant, KeptShots, Outcome, Problem, Rules, Run, RunError, START_UP_STEPS,
-    SharedObserver, Shooting, SourceSplit, Thing,
+    SharedObserver, Shooting, Source, SourceSplit, Thing,
 };
 
 use crate::engine::figures::{
@@ -79,12 +79,12 @@ fn all_of<V>(
     Ok(())
 }
 
-/// The run of a problem at one point of an experiment; `on_shot` is called after every shot.
+/// The run of a problem at one point of an experiment; `on_shot` is called after every shot with its source.
 pub fn run(
     problem: &Arc<Problem>,
     point: &Experiment,
     kept: &Arc<KeptShots>,
-    on_shot: Arc<dyn Fn() + Send + Sync>,
+    on_shot: Arc<dyn Fn(&Source) + Send + Sync>,
 ) -> Run {
     Run {
         problem: Arc::clone(problem),

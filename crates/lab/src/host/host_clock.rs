@@ -1,5 +1,6 @@
 //! Clocks of the host. No result depends on them.
 
+use std::sync::LazyLock;
 use std::time::Instant;
 
 use cpu_time::ThreadTime;
@@ -28,6 +29,13 @@ impl HostClock {
     pub fn cpu_seconds(&self) -> f64 {
         self.thread.elapsed().as_secs_f64()
     }
+}
+
+/// Host seconds since the first call.
+#[expect(clippy::disallowed_methods, reason = "for estimates of what is left")]
+pub fn host_seconds() -> f64 {
+    static START: LazyLock<Instant> = LazyLock::new(Instant::now);
+    START.elapsed().as_secs_f64()
 }
 
 /// Something that is due at intervals of host time.

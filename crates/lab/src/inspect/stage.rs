@@ -147,7 +147,7 @@ impl Stage {
     /// Why the run did not end, or that there is none.
     pub fn light_at(&self, times: &[Time]) -> Result<(Vec<Light>, Time), String> {
         let Some(staged) = &self.run else { return Err("no run lights it".to_owned()) };
-        let run = simulator::run(&self.problem, &staged.point, &staged.kept, Arc::new(|| ()));
+        let run = simulator::run(&self.problem, &staged.point, &staged.kept, Arc::new(|_| ()));
         simulator::light_at(&run, &staged.point, &staged.machine, times)
     }
 }

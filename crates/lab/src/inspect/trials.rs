@@ -64,7 +64,7 @@ impl Trials {
         let run = &self.plan.runs[run];
         let machine = &self.plan.machines[run.machine].machine;
         let kept = Arc::new(KeptShots::new(MEMORY));
-        let made = simulator::run(problem, &run.point, &kept, Arc::new(|| ()));
+        let made = simulator::run(problem, &run.point, &kept, Arc::new(|_| ()));
         simulator::outcome(&made, &run.point, machine)
     }
 }

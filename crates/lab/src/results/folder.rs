@@ -22,6 +22,7 @@ use crate::results::recordings;
 use crate::results::repeats_csv;
 use crate::results::report;
 use crate::results::run_table::run_table;
+use crate::results::without_time;
 use crate::run::runner::{Endings, Options};
 use crate::run::saved::Saved;
 use crate::table::cheapest;
@@ -121,7 +122,12 @@ impl Results {
         let mut names = vec![operations::FILE.to_owned()];
         let mut drawings = Vec::new();
         let table = host_times::beside(&self.table, out);
-        let plots = self.plots();
+        let note = without_time::note(&self.manifest);
+        let titled = |plot: Plot| match note {
+            Some(_) => without_time::titled(&plot, &table),
+            None => plot,
+        };
+        let plots: Vec<Plot> = self.plots().into_iter().map(titled).collect();
         for plot in &plots {
             let svg = chart::svg(&table, &sweeps, plot, self.speed_up_base());
             let name = format!("{}.svg", plot.stem());
@@ -146,8 +152,10 @@ impl Results {
     /// The table for a terminal.
     pub fn text(&self) -> String {
         let sweeps = self.sweeps();
-        let base = self.speed_up_base();
-        table_text(&self.table, &sweeps, base.into()) + &cheapest::text(&self.table, &sweeps)
+        let base = self.speed_up_base().into();
+        let note = without_time::note(&self.manifest);
+        let note = note.map_or(String::new(), |note| format!("\n{note}\n"));
+        table_text(&self.table, &sweeps, base) + &cheapest::text(&self.table, &sweeps) + &note
     }
 
     /// How many runs failed.
@@ -213,12 +221,13 @@ fn manifest(plan: &Plan, table: &Table, on: On) -> io::Result<Value> {
     Ok(manifest)
 }
 
-/// Writes host times, in a file of their own: results do not depend on them.
+/// Writes host times and what made the results, in a file of their own: results do not depend on them.
 pub fn write_host_times(
     out: &Path,
     endings: &Endings,
     seconds: f64,
     threads: usize,
+    provenance: &Value,
 ) -> io::Result<()> {
     let shots = json!({
         "asked": endings.shots.asked(),
@@ -236,7 +245,9 @@ pub fn write_host_times(
         "set_up_s": of_runs(&|run| run.set_up_s),
         "clock_s": of_runs(&|run| run.clock_s),
     });
-    let times = json!({ "threads": threads, "seconds": seconds, "shots": shots, "runs": runs });
+    let times = json!({
+        "provenance": provenance, "threads": threads, "seconds": seconds, "shots": shots, "runs": runs,
+    });
     file::make_folder(out)?;
     file::write(&out.join(host_times::FILE), pretty(&times)?.as_bytes())
 }

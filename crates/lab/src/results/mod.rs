@@ -29,3 +29,4 @@ pub mod strokes; // Dashes of lines, and turns of those that coincide.
 pub mod style; // Colour, marker and dash of each line.
 pub mod summary; // Simulated figures compared with published ones.
 pub mod waste; // Warnings of runs that made many more shots than one processor.
+pub mod without_time; // Results without virtual time.

@@ -32,13 +32,16 @@ fn of(ending: &Ending) -> Option<(NetworkModel, f64)> {
 }
 
 /// For each model of a sweep over networks, its largest difference from the finest, and the host time of its
-/// runs; empty without such a sweep. Shots are kept from run to run, so the first model pays for casting them.
+/// runs; empty without such a sweep, and of runs without virtual time. Shots are kept from run to run, so the first model pays for casting them.
 pub fn text(plan: &Plan, endings: &Endings) -> String {
     let Some(axis) = plan.axes.iter().position(|axis| axis.place.to_string() == NETWORK_MODEL)
     else {
         return String::new();
     };
     let finest = finest(plan, endings);
+    if finest.is_empty() {
+        return String::new();
+    }
     let mut text = format!("{:>9}{:>27}{:>10}\n", "network", "farthest from the finest", "CPU s");
     for (item, value) in plan.axes[axis].values.iter().enumerate() {
         let runs = plan.runs.iter().zip(endings.runs.iter().zip(&endings.host));

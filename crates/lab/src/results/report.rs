@@ -10,6 +10,7 @@ use crate::experiment::schema::FIELDS;
 use crate::experiment::sweep::in_words;
 use crate::results::console::{Line, lines};
 use crate::results::summary::Summary;
+use crate::results::without_time;
 use crate::table::cheapest;
 use crate::table::columns;
 use crate::table::runs_csv::Table;
@@ -89,7 +90,10 @@ fn lead(manifest: &Value, runs: &Table) -> String {
     let version = escape(&in_words(&manifest["virtwall"]));
     let seed = escape(&in_words(&manifest["seed"]));
     let plural = if runs == 1 { "" } else { "s" };
-    format!("<p class=\"lead\">{runs} run{plural} {on}. Virtwall {version}, seed {seed}.</p>\n")
+    let note = without_time::note(manifest).map_or(String::new(), |note| format!(" {note}"));
+    format!(
+        "<p class=\"lead\">{runs} run{plural} {on}. Virtwall {version}, seed {seed}.{note}</p>\n"
+    )
 }
 
 fn warnings(manifest: &Value, runs: &Table) -> String {

@@ -4,12 +4,13 @@ use std::cell::RefCell;
 use std::io;
 use std::path::Path;
 use std::rc::Rc;
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use radiosity::Rgb;
 use viewer::{Broadcast, LightRecording};
-use virtwall::{Helpers, KeptShots, Memory, Observers, Recording, SharedObserver, ShotCounts};
+use virtwall::{
+    Helpers, KeptShots, Memory, Observers, Recording, SharedObserver, ShotCounts, ShotMeter, Source,
+};
 
 use crate::accuracy::answer::DenseAnswers;
 use crate::accuracy::causes::Explained;
@@ -19,7 +20,7 @@ use crate::engine::figures::Figures;
 use crate::engine::network;
 use crate::engine::simulator::{self, On};
 use crate::host::held::held;
-use crate::host::host_clock::{HostClock, HostTimes};
+use crate::host::host_clock::{HostClock, HostTimes, host_seconds};
 use crate::planning::plan::{Plan, Prepared};
 use crate::run::feed::{Feed, Follower, News};
 use crate::run::progress::{Counters, ProgressObserver};
@@ -54,17 +55,38 @@ pub struct Options {
 /// One shot in this number is reported: all threads report to the same watcher.
 const SHOTS_REPORTED: u64 = 64;
 
+/// What a run has done so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Done {
+    /// Sources shot, local and received.
+    pub shots: u64,
+    /// Power of the patches that it shot, over the emitted power: 1 when all lights are shot, more later.
+    pub power: f64,
+    /// Shots so far of all runs of its problem that were not in memory when they were asked for.
+    pub new: u64,
+    /// Host seconds for which all runs of its problem have waited for shots so far.
+    pub waited_s: f64,
+}
+
 /// Something that happened while a plan is carried out.
 #[derive(Clone, Copy, Debug)]
 pub enum Event {
     /// A run was finished before, by a sweep that was interrupted.
-    Found,
+    Found {
+        /// Index into [`Plan::runs`].
+        run: usize,
+    },
+    /// A run has begun.
+    Started {
+        /// Index into [`Plan::runs`].
+        run: usize,
+    },
     /// A run has shot some more sources.
     Shots {
         /// Index into [`Plan::runs`].
         run: usize,
-        /// Sources shot so far.
-        shots: u64,
+        /// What it has done.
+        done: Done,
     },
     /// Progress counters of a run, at intervals of host time.
     Counters {
@@ -77,6 +99,8 @@ pub enum Event {
     Finished {
         /// Index into [`Plan::runs`].
         run: usize,
+        /// What it has done.
+        done: Done,
     },
 }
 
@@ -119,7 +143,8 @@ pub fn carry_out(plan: &Plan, out: &Path, options: &Options, watch: Watch) -> io
     let found = keys.iter().map(|key| saved.load(key));
     let (found, host): (Vec<Option<Ending>>, Vec<Option<HostTimes>>) =
         found.map(|run| run.map(|(figures, host)| (Ok(figures), host)).unzip()).unzip();
-    found.iter().flatten().for_each(|_| watch(Event::Found));
+    let ended = found.iter().enumerate().filter(|(_, found)| found.is_some());
+    ended.for_each(|(run, _)| watch(Event::Found { run }));
     let recorded = match options.on {
         On::Simulation => options.viewing.chosen(plan),
         On::Threads => vec![false; plan.runs.len()],
@@ -139,6 +164,7 @@ pub fn carry_out(plan: &Plan, out: &Path, options: &Options, watch: Watch) -> io
         memory: Arc::new(Memory::new(options.memory)),
         helpers: Arc::new(Helpers::of(threads)),
         queue,
+        meters: plan.problems.iter().map(|_| Arc::new(ShotMeter::new(host_seconds))).collect(),
         endings: Mutex::new(Endings {
             runs: found,
             host,
@@ -168,6 +194,8 @@ struct Shared<'a> {
     memory: Arc<Memory>,
     helpers: Arc<Helpers>,
     queue: Mutex<Queue>,
+    /// By problem, what shots cost that are not in memory.
+    meters: Vec<Arc<ShotMeter>>,
     endings: Mutex<Endings>,
     dense: DenseAnswers,
     trouble: Mutex<Option<io::Error>>,
@@ -180,10 +208,12 @@ impl Shared<'_> {
             let Some(task) = held(&self.queue).take(|problem| self.kept_shots(problem)) else {
                 return;
             };
+            let shots = Arc::new(ShotSum::default());
             let answer = self.check_answer(&task);
             let clock = HostClock::start();
+            (self.watch)(Event::Started { run: task.run });
             let (ended, traced) = match answer {
-                Ok(()) => self.run(&task),
+                Ok(()) => self.run(&task, &shots),
                 Err(message) => (Err(message), Ok(())),
             };
             let host = HostTimes {
@@ -199,7 +229,8 @@ impl Shared<'_> {
             }
             held(&self.queue).done(&task);
             if !found {
-                (self.watch)(Event::Finished { run });
+                let done = self.done(&task, &shots);
+                (self.watch)(Event::Finished { run, done });
             }
         }
     }
@@ -219,10 +250,15 @@ impl Shared<'_> {
         stored
     }
 
+    fn done(&self, task: &Task, shots: &ShotSum) -> Done {
+        let problem = &self.plan.problems[task.problem].problem;
+        shots.done(problem.emitted_power().element_sum(), &self.meters[task.problem])
+    }
+
     fn kept_shots(&self, problem: usize) -> KeptShots {
         let files = self.options.shot_files.as_ref();
         let archive = files.map(|files| files.of(&self.plan.problems[problem]));
-        KeptShots::sharing(&self.memory, &self.helpers, archive)
+        KeptShots::sharing(&self.memory, &self.helpers, archive).measured(&self.meters[problem])
     }
 
     fn endings(self) -> Endings {
@@ -253,20 +289,20 @@ impl Shared<'_> {
         Ok(Some(errors))
     }
 
-    fn run(&self, task: &Task) -> (Ended, io::Result<()>) {
+    fn run(&self, task: &Task, shots: &Arc<ShotSum>) -> (Ended, io::Result<()>) {
         let run = &self.plan.runs[task.run];
         let Prepared { problem, scene_bytes, .. } = &self.plan.problems[run.problem];
         let machine = &self.plan.machines[run.machine].machine;
         let (watch, index) = (Arc::clone(&self.watch), task.run);
-        let shots = AtomicU64::new(0);
-        let on_shot = Arc::new(move || {
-            let shots = shots.fetch_add(1, Ordering::Relaxed) + 1;
-            if shots.is_multiple_of(SHOTS_REPORTED) {
-                watch(Event::Shots { run: index, shots });
+        let (shots, meter) = (Arc::clone(shots), Arc::clone(&self.meters[task.problem]));
+        let nothing_kept = Arc::new(KeptShots::new(0).measured(&meter));
+        let emitted = problem.emitted_power().element_sum();
+        let on_shot = Arc::new(move |source: &Source| {
+            if shots.add(source).is_multiple_of(SHOTS_REPORTED) {
+                watch(Event::Shots { run: index, done: shots.done(emitted, &meter) });
             }
         });
         let point = &run.point;
-        let nothing_kept = Arc::new(KeptShots::new(0));
         let kept = if point.reuse_shots { &task.kept } else { &nothing_kept };
         let run = simulator::run(problem, point, kept, on_shot);
         let on = self.options.on;
@@ -320,6 +356,30 @@ impl Shared<'_> {
             let report = move |counters| watch(Event::Counters { run: index, counters });
             Rc::new(RefCell::new(ProgressObserver::new(run, report))) as SharedObserver
         })
+    }
+}
+
+/// Shots of a run, and the power of those of patches, W.
+#[derive(Default)]
+struct ShotSum(Mutex<(u64, f64)>);
+
+impl ShotSum {
+    /// Adds the shot of a source; returns how many there are.
+    fn add(&self, source: &Source) -> u64 {
+        let mut sum = held(&self.0);
+        if source.is_local() && !source.emitter.is_of_a_wall() {
+            sum.1 += source.power().element_sum();
+        }
+        sum.0 += 1;
+        sum.0
+    }
+
+    /// What a run has done that made these shots, of a problem with this emitted power and this meter.
+    fn done(&self, emitted: f64, meter: &ShotMeter) -> Done {
+        let (shots, power) = *held(&self.0);
+        let power = if emitted > 0.0 { power / emitted } else { 0.0 };
+        let (new, waited_s) = meter.read();
+        Done { shots, power, new, waited_s }
     }
 }
 

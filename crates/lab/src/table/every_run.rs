@@ -21,7 +21,7 @@ pub const EVERY_RUN: &[Column] = &[
     column(
         "speed_up",
         "ratio",
-        "Time on one processor, or on as many as speed_up_over says, all else equal, over time_s (Table 1).",
+        "Time on one processor, or on as many as speed_up_over says, all else equal, over time_s (Table 1). Empty on threads.",
         always,
         |r| fixed(r.speed_up?, 4),
     ),
@@ -59,9 +59,13 @@ pub const EVERY_RUN: &[Column] = &[
         always,
         |r| text(r.figures?.message_bytes),
     ),
-    column("busy_fraction", "ratio", "Share of their time that nodes compute.", always, |r| {
-        fixed(r.figures?.busy_fraction?, 6)
-    }),
+    column(
+        "busy_fraction",
+        "ratio",
+        "Share of their time that nodes compute. Empty on threads.",
+        always,
+        |r| fixed(r.figures?.busy_fraction?, 6),
+    ),
     column(
         "energy_error",
         "ratio",
@@ -72,7 +76,7 @@ pub const EVERY_RUN: &[Column] = &[
     column(
         "efficiency",
         "ratio",
-        "Speed-up over processors, times those that it is relative to.",
+        "Speed-up over processors, times those that it is relative to. Empty on threads.",
         always,
         |r| {
             let base = r.input.point.speed_up_over.unwrap_or(1);

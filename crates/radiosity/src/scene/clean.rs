@@ -9,6 +9,7 @@ use glam::DVec3;
 
 use super::coplanar::share_planes;
 use super::error::{FARTHEST, SceneError};
+use super::flat::flattened;
 use super::overlaps::{cut_overlaps, order};
 use super::scene::{Face, Material, Plane, Polygon, Rgb, Scene};
 use super::warnings::{WarningKind, Warnings};
@@ -24,6 +25,7 @@ impl Scene {
     /// diagonal become equal. Faces that are not planar (to 1e-6 of their size) or not convex are
     /// divided into triangles. Faces without area, and faces with the same corners and front as an
     /// other one, are dropped. A face of a two-sided material is stored twice, back to back.
+    /// Corners are moved onto the planes of planar faces, which become level if they are almost so.
     /// Polygons in the same plane share it to the bit. Of those that face the same way and overlap,
     /// one is seen, whatever the order of the faces; what it covers is cut out of the others.
     ///
@@ -42,7 +44,7 @@ impl Scene {
         let (mut welded, corners) = weld(faces, origin, tolerance);
 
         let mut cleaner = Cleaner {
-            vertices: &welded,
+            vertices: &mut welded,
             tolerance,
             seen: BTreeMap::new(),
             materials: &materials,
@@ -176,7 +178,7 @@ type Pieces = Vec<(Vec<u32>, Plane, f64)>;
 
 /// Turns faces into polygons, one at a time.
 struct Cleaner<'a> {
-    vertices: &'a [DVec3],
+    vertices: &'a mut Vec<DVec3>,
     tolerance: f64,
     /// Rings of the polygons so far, each starting at its smallest vertex, and their numbers.
     seen: BTreeMap<Vec<u32>, usize>,
@@ -208,10 +210,12 @@ impl Cleaner<'_> {
         };
         let mut duplicated = false;
         for (ring, plane, area) in pieces {
-            let back = two_sided.then(|| ring.iter().rev().copied().collect());
-            duplicated |= !self.push(face, ring, plane, area);
-            if let Some(back) = back {
-                duplicated |= !self.push(face, back, plane.reversed(), area);
+            let (flat, plane) = self.flattened(&ring, plane);
+            let reversed = |ring: &[u32]| ring.iter().rev().copied().collect::<Vec<u32>>();
+            let back = two_sided.then(|| (reversed(&ring), reversed(&flat)));
+            duplicated |= !self.push(face, ring, flat, plane, area);
+            if let Some((ring, flat)) = back {
+                duplicated |= !self.push(face, ring, flat, plane.reversed(), area);
             }
         }
         if duplicated {
@@ -219,14 +223,34 @@ impl Cleaner<'_> {
         }
     }
 
-    /// Adds a polygon. Returns false if it exists already; the one that is seen is kept.
-    fn push(&mut self, face: &Face, mut ring: Vec<u32>, plane: Plane, area: f64) -> bool {
-        let mut key = ring.clone();
+    /// The ring with corners exactly on a plane, and that plane.
+    fn flattened(&mut self, ring: &[u32], plane: Plane) -> (Vec<u32>, Plane) {
+        let corners: Vec<DVec3> = self.points(ring).collect();
+        let Some((flat, plane)) = flattened(&corners, plane, self.slack(ring), self.tolerance)
+        else {
+            return (ring.to_vec(), plane);
+        };
+        let first = self.vertices.len() as u32;
+        self.vertices.extend(&flat);
+        ((first..).take(flat.len()).collect(), plane)
+    }
+
+    /// Adds a polygon of a ring that was flattened. Returns false if there is one of this ring; the one that is seen
+    /// is kept.
+    fn push(
+        &mut self,
+        face: &Face,
+        ring: Vec<u32>,
+        mut flat: Vec<u32>,
+        plane: Plane,
+        area: f64,
+    ) -> bool {
+        let mut key = ring;
         let least = (0..key.len()).min_by_key(|&i| key[i]).unwrap_or(0);
         key.rotate_left(least);
-        ring.shrink_to_fit();
+        flat.shrink_to_fit();
         let (material, object) = (face.material, face.object);
-        let polygon = Polygon { vertices: ring, material, object, plane, area };
+        let polygon = Polygon { vertices: flat, material, object, plane, area };
         match self.seen.entry(key) {
             Entry::Vacant(new) => {
                 new.insert(self.polygons.len());
@@ -311,11 +335,16 @@ impl Cleaner<'_> {
     }
 
     fn is_planar(&self, ring: &[u32], plane: Plane) -> bool {
-        let size = Bounds::of(self.points(ring)).size().length();
-        // Welding can move a corner by the tolerance along each axis.
-        let slack = (FLATNESS * size).max(4.0 * self.tolerance);
+        let slack = self.slack(ring);
         ring.len() == 3
             || self.points(ring).all(|p| (plane.normal.dot(p) - plane.offset).abs() <= slack)
+    }
+
+    /// Largest distance of a corner from a plane in which a ring is.
+    fn slack(&self, ring: &[u32]) -> f64 {
+        let size = Bounds::of(self.points(ring)).size().length();
+        // Welding can move a corner by the tolerance along each axis.
+        (FLATNESS * size).max(4.0 * self.tolerance)
     }
 
     /// Whether the ring turns left at every corner and goes around once: each corner is left of the

@@ -3,6 +3,7 @@
 mod clean; // from faces to polygons: welded, convex, planar, without duplicates
 mod coplanar; // one plane, equal to the bit, for polygons that share a plane
 mod error; // why files or faces do not make a scene
+mod flat; // corners moved onto the planes of their polygons
 mod mtl; // material files
 mod obj; // Wavefront OBJ files
 mod overlaps; // overlapping polygons of one plane: covered parts are cut away

@@ -80,7 +80,7 @@ pub fn record(machine: &Machine, network: Box<dyn Network>) -> (Outcome, Recordi
         processors: PROCESSORS,
         rules,
         kept: Arc::new(KeptShots::new(1 << 30)),
-        on_shot: Arc::new(|| ()),
+        on_shot: Arc::new(|_| ()),
     };
     let recording = Rc::new(RefCell::new(Recording::new(&run.problem, PROCESSORS)));
     let outcome = simulate_observed(&run, machine, network, Some(recording.clone() as _)).unwrap();

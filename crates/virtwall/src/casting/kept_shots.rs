@@ -9,6 +9,7 @@ use radiosity::Shot;
 
 use super::helpers::Helpers;
 use super::memory::Memory;
+use super::meter::{ShotMeter, timed};
 use super::shot_code::{decode, encode};
 use super::shot_key::ShotKey;
 use super::waiters::Waiters;
@@ -26,6 +27,7 @@ pub struct KeptShots {
     memory: Arc<Memory>,
     archive: Option<Box<dyn Archive>>,
     helpers: Arc<Helpers>,
+    meter: Option<Arc<ShotMeter>>,
     table: Mutex<Table>,
     /// Threads that wait for a shot that another thread is casting.
     arrived: Waiters,
@@ -102,7 +104,14 @@ impl KeptShots {
         archive: Option<Box<dyn Archive>>,
     ) -> KeptShots {
         let (memory, helpers) = (Arc::clone(memory), Arc::clone(helpers));
-        KeptShots { memory, archive, helpers, table: Mutex::default(), arrived: Waiters::default() }
+        let (table, arrived) = (Mutex::default(), Waiters::default());
+        KeptShots { memory, archive, helpers, meter: None, table, arrived }
+    }
+
+    /// The same, with the time measured for which runs wait for shots.
+    pub fn measured(mut self, meter: &Arc<ShotMeter>) -> KeptShots {
+        self.meter = Some(Arc::clone(meter));
+        self
     }
 
     /// What became of the shots asked for so far.
@@ -120,9 +129,16 @@ impl KeptShots {
 
     /// The shot of a source: a kept one, or cast now; and whether it had been asked for before.
     pub(crate) fn shot(&self, problem: &Problem, source: &Source) -> (Shot, bool) {
+        let meter = self.meter.as_deref();
         match self.claim(ShotKey::of(source)) {
-            Err(casting) => (self.obtain(problem, source, casting, |_| ()), false),
+            Err(casting) => {
+                meter.iter().for_each(|meter| meter.count());
+                (timed(meter, || self.obtain(problem, source, casting, |_| ())), false)
+            }
             Ok((code, found)) => {
+                if found != Found::InMemory {
+                    meter.iter().for_each(|meter| meter.count());
+                }
                 let environment = &problem.environments[source.environment as usize];
                 let shot = decode(&code, environment, source.mask.pixels())
                     .unwrap_or_else(|_| problem.shoot(source));
@@ -181,10 +197,10 @@ impl KeptShots {
                 Some(Entry::Casting) => match self.helpers.take() {
                     Some(job) => {
                         drop(table);
-                        job();
+                        timed(self.meter.as_deref(), job);
                         table = self.table();
                     }
-                    None => table = self.arrived.wait(table),
+                    None => table = timed(self.meter.as_deref(), || self.arrived.wait(table)),
                 },
             }
         }

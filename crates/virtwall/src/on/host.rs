@@ -9,7 +9,7 @@ use radiosity::Work;
 use super::error::RunError;
 use super::progress::Progress;
 use crate::casting::LookAhead;
-use crate::problem::Rank;
+use crate::problem::{Rank, Source};
 use crate::program::{Event, ProgramError};
 use crate::run::{Counts, Outcome};
 use crate::wire::{Message, MessageKind};
@@ -19,8 +19,8 @@ use crate::wire::{Message, MessageKind};
 pub(super) struct Host {
     pub look_ahead: Arc<LookAhead>,
     pub progress: Arc<Progress>,
-    /// Called after every shot.
-    pub on_shot: Arc<dyn Fn() + Send + Sync>,
+    /// Called after every shot with its source.
+    pub on_shot: Arc<dyn Fn(&Source) + Send + Sync>,
 }
 
 impl Host {
@@ -31,7 +31,7 @@ impl Host {
             Event::HandedOn(source) => self.look_ahead.foresee(Cow::Borrowed(source)),
             Event::Shot { source, .. } => {
                 self.progress.shot(source);
-                (self.on_shot)();
+                (self.on_shot)(source);
             }
             Event::Selected(_) | Event::Queued { .. } | Event::Taken { .. } => {}
         }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::casting::KeptShots;
-use crate::problem::Problem;
+use crate::problem::{Problem, Source};
 use crate::program::Rules;
 
 /// What is to be run.
@@ -17,6 +17,6 @@ pub struct Run {
     pub rules: Rules,
     /// Shots kept from and for other runs of the same problem.
     pub kept: Arc<KeptShots>,
-    /// Called after every shot, from the thread that carries out the run.
-    pub on_shot: Arc<dyn Fn() + Send + Sync>,
+    /// Called after every shot with its source, from the thread that carries out the run.
+    pub on_shot: Arc<dyn Fn(&Source) + Send + Sync>,
 }
