@@ -15,8 +15,22 @@ pub fn point(text: &str) -> Result<DVec3, String> {
     }
 }
 
-/// A direction, as a unit vector.
+/// A direction, as a unit vector: an axis, such as y or -z, or three numbers.
 pub fn direction(text: &str) -> Result<DVec3, String> {
-    let direction = point(text)?.try_normalize();
-    direction.ok_or_else(|| format!("found \"{text}\"; expected a direction, such as 0,1,0"))
+    let (name, sign) = text.strip_prefix('-').map_or((text, 1.0), |name| (name, -1.0));
+    let axis = match name {
+        "x" => Some(DVec3::X),
+        "y" => Some(DVec3::Y),
+        "z" => Some(DVec3::Z),
+        _ => None,
+    };
+    if let Some(axis) = axis {
+        return Ok(sign * axis);
+    }
+    let direction = point(text).ok().and_then(DVec3::try_normalize);
+    direction.ok_or_else(|| {
+        format!(
+            "found \"{text}\"; expected an axis, such as y or -z, or three numbers, such as 0,1,0"
+        )
+    })
 }

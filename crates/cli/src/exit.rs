@@ -31,10 +31,20 @@ impl From<Fault> for Exit {
     }
 }
 
-/// Prints to standard output. That the reader has closed it, as `head` does, is no error.
-pub fn print(text: &str) {
-    let mut output = io::stdout().lock();
-    let _ = output.write_all(text.as_bytes()).and_then(|()| output.flush());
+/// Prints to standard output.
+pub fn print(text: &str) -> Result<(), Exit> {
+    printed(io::stdout().lock().write_all(text.as_bytes()))
+}
+
+/// What was written to standard output has arrived there. That the reader has closed it, as `head` does, is
+/// no error.
+pub fn printed(written: io::Result<()>) -> Result<(), Exit> {
+    match written.and_then(|()| io::stdout().lock().flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Exit::failure(format!("standard output: {error}")))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Prints the warnings about scenes to standard error, each once.

@@ -13,8 +13,11 @@ pub struct Arguments {
     /// Name of a built-in scene, machine or experiment, as `virtwall list` prints it
     name: String,
     /// Folder in which the file is put, below scenes/, machines/ or experiments/
-    #[arg(default_value = ".")]
-    folder: PathBuf,
+    #[arg(short, long, value_name = "DIR", default_value = ".")]
+    output: PathBuf,
+    /// The same, as it was called once
+    #[arg(hide = true, conflicts_with = "output")]
+    folder: Option<PathBuf>,
 }
 
 const FOLDERS: [&str; 3] = ["scenes", "machines", "experiments"];
@@ -34,9 +37,10 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         files.push(path.clone());
         files.extend(geometry(path)?);
     }
+    let folder = arguments.folder.as_ref().unwrap_or(&arguments.output);
     let copies: Vec<PathBuf> = files
         .iter()
-        .map(|path| arguments.folder.join(path.strip_prefix(shipped::ROOT).unwrap_or(path)))
+        .map(|path| folder.join(path.strip_prefix(shipped::ROOT).unwrap_or(path)))
         .collect();
     if let Some(there) = copies.iter().find(|copy| copy.exists()) {
         let message = format!("{}: exists already; expected a folder without it", there.display());

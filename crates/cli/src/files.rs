@@ -13,14 +13,13 @@ pub fn make_folder(path: &Path, purpose: &str) -> Result<(), Exit> {
 
 /// Checks that a file can be written: before the work whose result it is to hold.
 pub fn check_writable(path: &Path) -> Result<(), Exit> {
+    let path = &lab::target(path).map_err(Exit::bad_input)?;
     let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
-    let refused =
-        |why| Err(Exit::bad_input(format!("{}: cannot be written: {why}", path.display())));
-    match () {
-        () if path.is_dir() => refused("it is a folder"),
-        () if !folder.is_dir() => refused("its folder does not exist"),
-        () => lab::check_writable(folder).map_err(Exit::bad_input),
+    if !folder.is_dir() {
+        let message = format!("{}: cannot be written: its folder does not exist", path.display());
+        return Err(Exit::bad_input(message));
     }
+    lab::check_writable(folder).map_err(Exit::bad_input)
 }
 
 pub fn write(path: &Path, bytes: impl AsRef<[u8]>) -> Result<(), Exit> {

@@ -16,6 +16,7 @@ mod live;
 mod machine;
 mod man;
 mod named;
+mod paths;
 mod plot;
 mod progress;
 mod provenance;
@@ -33,7 +34,7 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
 
-use crate::exit::{Exit, print, print_note};
+use crate::exit::{Exit, print, print_note, printed};
 
 /// Simulates an Intel Paragon XP/S running the parallel radiosity algorithm of Inria RR-3008.
 #[derive(Parser)]
@@ -57,9 +58,9 @@ enum Command {
     Export(export::Arguments),
     /// Draw the plots and the report of saved results again
     Plot(plot::Arguments),
-    /// Validate experiments, machines, traces, scenes and OBJ files; print what each is
+    /// Validate experiments, machines, traces, scenes, OBJ and MTL files; print what each is
     Check(check::Arguments),
-    /// Make or show a scene
+    /// Make, show or repair a scene
     #[command(subcommand)]
     Scene(scene::Command),
     /// Show a machine, or measure its network
@@ -91,7 +92,21 @@ enum BenchCommand {
 }
 
 fn main() -> ExitCode {
-    let result = match &Arguments::parse().command {
+    let (output, failure) = match Arguments::try_parse().map(|arguments| run(&arguments.command)) {
+        Err(said) if said.use_stderr() => said.exit(),
+        // Help, or the version.
+        Err(said) => (printed(said.print()), None),
+        Ok(Ok(text)) => (print(&text), None),
+        Ok(Err(exit)) => (print(&exit.output), Some(exit)),
+    };
+    let failures = [output.err(), failure];
+    failures.iter().flatten().for_each(|exit| print_note(&format!("error: {}", exit.message)));
+    ExitCode::from(failures.iter().flatten().last().map_or(0, |exit| exit.code))
+}
+
+/// Carries out a command; returns what it prints.
+fn run(command: &Command) -> Result<String, Exit> {
+    match command {
         Command::Run(arguments) => run::run(arguments),
         Command::List(arguments) => list::run(arguments),
         Command::Show(arguments) => show::run(arguments),
@@ -109,16 +124,5 @@ fn main() -> ExitCode {
         Command::Schema(arguments) => schema::run(arguments),
         Command::Completions(arguments) => completions::run(arguments, Arguments::command()),
         Command::Man(arguments) => man::run(arguments, Arguments::command()),
-    };
-    match result {
-        Ok(text) => {
-            print(&text);
-            ExitCode::SUCCESS
-        }
-        Err(Exit { code, output, message }) => {
-            print(&output);
-            print_note(&format!("error: {message}"));
-            ExitCode::from(code)
-        }
     }
 }

@@ -11,16 +11,22 @@ use crate::files::{make_folder, write};
 #[derive(Args)]
 pub struct Arguments {
     /// Folder for the pages
-    folder: PathBuf,
+    #[arg(short, long, value_name = "DIR", required_unless_present = "folder")]
+    output: Option<PathBuf>,
+    /// The same, as it was called once
+    #[arg(hide = true, conflicts_with = "output")]
+    folder: Option<PathBuf>,
 }
 
 /// Writes the pages; returns their paths.
 pub fn run(arguments: &Arguments, mut command: Command) -> Result<String, Exit> {
-    make_folder(&arguments.folder, "manual pages")?;
+    let folder = arguments.output.iter().chain(&arguments.folder).next();
+    let folder = folder.ok_or_else(|| Exit::bad_input("expected a folder for the pages"))?;
+    make_folder(folder, "manual pages")?;
     command.build();
     let mut output = String::new();
     for (name, page) in pages(&command)? {
-        let path = arguments.folder.join(name);
+        let path = folder.join(name);
         write(&path, page)?;
         output += &format!("{}\n", path.display());
     }

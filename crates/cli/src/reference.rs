@@ -37,7 +37,7 @@ pub struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 1996)]
     seed: u64,
     /// File to write [default: results/references/<name of the scene>.<format>]
-    #[arg(long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// File format: JSON with all data, or CSV with a line per patch
     #[arg(long, value_enum, default_value = "json")]

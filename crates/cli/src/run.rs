@@ -9,7 +9,7 @@ use clap::{Args, ValueEnum};
 use config::{Dimension, parse, short_name};
 use lab::{
     Claim, Endings, FileKind, HostClock, On, Options, Plan, Preparing, Results, ShotFiles, Traces,
-    Viewing, check_writable, difference, find_here, folder_for,
+    Viewing, check_writable, find_here, folder_for, obstacle,
 };
 use traces::{Format, Sample};
 
@@ -28,7 +28,7 @@ pub struct Arguments {
     experiment: String,
     /// Folder for the results [default: results/<name of the experiment file>, followed by what --set and
     /// --network change]
-    #[arg(long, value_name = "DIR")]
+    #[arg(short, long = "output", alias = "out", value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
     threads: Threads,
@@ -154,12 +154,11 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         OnArgument::Simulation => On::Simulation,
         OnArgument::Threads => On::Threads,
     };
-    if let Some(difference) = difference(&plan, on, &out).filter(|_| !arguments.replace) {
-        return Err(Exit::bad_input(format!(
-            "{place}: has results of another configuration: {difference}; expected the same, another folder by \
-             --out, or --replace"
-        )));
+    if let Some(obstacle) = obstacle(&plan, on, &out).filter(|_| !arguments.replace) {
+        let message = format!("{obstacle}, another folder by --output, or --replace");
+        return Err(Exit::bad_input(message));
     }
+    lab::check_targets(&plan, &out).map_err(Exit::bad_input)?;
     let claim = Claim::of(&out).map_err(Exit::bad_input)?;
 
     let viewing = arguments.viewer.clone();
@@ -194,8 +193,9 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
         print_warnings(&lab::waste(&plan, &endings));
     }
     if let Some(live) = live {
-        print(&std::mem::take(&mut output));
+        let printed = print(&std::mem::take(&mut output));
         live.finish(&out);
+        printed?;
     }
     match results.failures() {
         0 => Ok(output),

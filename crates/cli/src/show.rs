@@ -1,5 +1,7 @@
 //! `virtwall show`: a scene, a machine or an experiment, whichever has the name.
 
+use std::path::Path;
+
 use clap::{Args, ValueEnum};
 use config::unknown;
 use lab::{Kind, Outline};
@@ -45,9 +47,12 @@ fn only_kind(name: &str) -> Result<Kind, Exit> {
     let kinds = kinds_of(name);
     match kinds[..] {
         [kind] => Ok(kind),
-        [] if std::path::Path::new(name).is_file() => Err(Exit::bad_input(format!(
+        [] if Path::new(name).is_file() => Err(Exit::bad_input(format!(
             "{name}: neither a scene, a machine nor an experiment; expected one of them"
         ))),
+        [] if Path::new(name).exists() && !Path::new(name).is_dir() => {
+            Err(Exit::bad_input(format!("{name}: not a regular file")))
+        }
         [] => Err(Exit::bad_input(unknown("scene, machine or experiment", name, &names()))),
         _ => {
             let each: Vec<String> = kinds.iter().map(Kind::to_string).collect();

@@ -18,7 +18,7 @@ pub struct Arguments {
     cases: Option<PathBuf>,
     /// Folder for the page, its table and its drawing [default: results/stability if all cases run,
     /// else none]
-    #[arg(long, value_name = "DIR")]
+    #[arg(short, long = "output", alias = "out", value_name = "DIR")]
     out: Option<PathBuf>,
 }
 
@@ -63,6 +63,9 @@ fn place(folder: &Path, name: &str) -> Result<PathBuf, Exit> {
     let in_folder = folder.join(format!("{name}.json"));
     if let Some(found) = [path, in_folder].into_iter().find(|path| shipped::is_file(path)) {
         return Ok(found);
+    }
+    if Path::new(name).exists() && !Path::new(name).is_dir() {
+        return Err(Exit::bad_input(format!("{name}: not a regular file")));
     }
     let names = cases(folder)?;
     let names: Vec<&str> = names.iter().filter_map(|path| path.file_stem()?.to_str()).collect();

@@ -32,6 +32,20 @@ impl Steps {
         (steps, move |left: f64| bar.set_position((100.0 * (1.0 - left)) as u64))
     }
 
+    /// A count of shots, whose number is not known in advance.
+    pub fn of_shots() -> Steps {
+        let bar = ProgressBar::no_length();
+        let style = ProgressStyle::with_template("{spinner} {pos} shots, {elapsed} elapsed");
+        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()));
+        Steps(bar)
+    }
+
+    /// Counts a step at each call, on any thread.
+    pub fn counter(&self) -> impl Fn() + Send + Sync + 'static {
+        let bar = self.0.clone();
+        move || bar.inc(1)
+    }
+
     pub fn one(&self) {
         self.0.inc(1);
     }

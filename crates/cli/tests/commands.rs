@@ -106,7 +106,7 @@ fn bad_input_exits_with_2_and_leaves_nothing() {
         &["run", "experiments"],
         &["plot", "results/x"],
         &["check", "experiments/x.json", "scenes/hole.obj"],
-        &["check", "scenes/box.mtl"],
+        &["check", "scenes/*.goal"],
         &["scene", "show", "attic"],
         &["scene", "make", "attic"],
         &["scene", "make", "office", "--tables", "3"],

@@ -146,7 +146,7 @@ fn pictures_follow_what_is_up() {
     project.write("scenes/lying.json", lying);
     let bytes = |name: &str| fs::read(project.path(name)).unwrap();
     for (command, file) in [
-        ("scene show SCENE --png FILE --cut-above 1.5", "a.png"),
+        ("scene show SCENE --png FILE --cut-above 1.5 --emitted", "a.png"),
         ("render SCENE -o FILE --exposure 5 --size 60x40 --shading flat --cut-above 1.5", "b.png"),
         ("render SCENE -o FILE --exposure 5 --size 60x40 --camera inside", "c.png"),
     ] {

@@ -29,9 +29,12 @@ pub fn short_name(text: &str) -> String {
     format!("{first}…{last}")
 }
 
-/// A number with this number of decimals, or with an exponent if it is large.
+/// A number with this number of decimals, or with an exponent if it is large, or less than the last decimal
+/// can show.
 pub fn decimal(number: f64, decimals: usize) -> String {
-    if number.abs() >= LARGE && number.is_finite() {
+    let size = number.abs();
+    let small = 0.0 < size && size * 10_f64.powi(decimals as i32) < 1.0;
+    if small || (size >= LARGE && number.is_finite()) {
         format!("{number:.decimals$e}")
     } else {
         format!("{number:.decimals$}")
@@ -67,7 +70,25 @@ mod tests {
         assert_eq!(decimal(0.25, 4), "0.2500");
     }
 
+    #[test]
+    fn small_numbers_have_an_exponent() {
+        assert_eq!(decimal(1e-30, 4), "1.0000e-30");
+        assert_eq!(decimal(-4e-6, 2), "-4.00e-6");
+        assert_eq!(decimal(0.05, 1), "5.0e-2");
+        assert_eq!(decimal(0.0, 2), "0.00");
+        for (decimals, text) in [(1, "0.1"), (2, "0.01"), (3, "0.001"), (4, "0.0001")] {
+            assert_eq!(decimal(text.parse().unwrap(), decimals), text);
+        }
+    }
+
     proptest! {
+        /// At least the first digit is right.
+        #[test]
+        fn what_is_shown_is_near_the_number(number in proptest::num::f64::NORMAL, decimals in 1_usize..5) {
+            let shown: f64 = decimal(number, decimals).parse().unwrap();
+            prop_assert!((shown - number).abs() <= 0.5 * number.abs(), "{number} {shown}");
+        }
+
         /// Messages without long names are left as they are.
         #[test]
         fn short_messages_stay(message in "\\PC{0,256}") {

@@ -169,8 +169,8 @@ fn scenes_that_are_inside_out_are_warned_of() {
         project
     };
     let warned = warning(&inside_out("")).unwrap();
-    let expected = "8 of 8 rays from lamps fall on backs, which absorb all light (6 of 7 polygons face out of the \
-                    scene and have no patches): turn";
+    let expected = "100 % of the light of the lamps falls on backs, which absorb all light (6 of 7 polygons face out \
+                    of the scene and have no patches): fronts";
     assert!(warned.starts_with(expected), "{warned}");
     // A table under the lamp, which shows its front, does not hide it.
     let table =

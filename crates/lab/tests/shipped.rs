@@ -31,7 +31,7 @@ fn open(path: &Path) -> Stage {
     let stage = Stage::open(path.to_str().unwrap(), &which)
         .unwrap_or_else(|fault| panic!("{}: {fault}", path.display()));
     if !LONG.contains(&name) {
-        let (light, end) = stage.light_at(&[Time::ZERO]).unwrap();
+        let (light, end) = stage.light_at(&[Time::ZERO], || ()).unwrap();
         assert!(light.len() == 1 && end > Time::ZERO, "{name}");
     }
     stage

@@ -79,7 +79,7 @@ fn results_with_an_accuracy_are_read_back() {
     for row in 1..=4 {
         let stage =
             Stage::open(out.to_str().unwrap(), &Which { set: &[], row: Some(row) }).unwrap();
-        let end = stage.light_at(&[]).unwrap().1.as_seconds_f64();
+        let end = stage.light_at(&[], || ()).unwrap().1.as_seconds_f64();
         let time = results.table.number(&results.table.rows[row - 1], "time_s").unwrap();
         assert!((end - time).abs() < 1e-6, "{row}: {end} {time}");
     }

@@ -35,7 +35,8 @@ pub use picture::{
 };
 pub use scene::{
     DEFAULT_REFLECTANCE, Face, Material, MtlMaterial, ObjFile, Plane, Polygon, Rgb, Scene,
-    SceneError, Warning, WarningKind, Warnings, load_obj, load_obj_from, read_regular_file,
+    SceneError, Warning, WarningKind, Warnings, load_mtl, load_obj, load_obj_from,
+    read_regular_file, turn_faces,
 };
 pub use shoot::{
     Emitter, End, Hemisphere, HemisphereError, HemisphereKind, MOST_PIXELS, Mask, Operation,

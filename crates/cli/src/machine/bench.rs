@@ -27,7 +27,7 @@ pub struct Arguments {
     #[command(flatten)]
     network: NetworkArgument,
     /// Write the table (bench.csv) and its plots to this folder
-    #[arg(long, value_name = "DIR")]
+    #[arg(short, long = "output", alias = "out", value_name = "DIR")]
     out: Option<PathBuf>,
 }
 

@@ -25,7 +25,7 @@ pub struct Arguments {
     #[command(flatten)]
     network: NetworkArgument,
     /// Write the table to this CSV file instead of printing it
-    #[arg(long, value_name = "FILE")]
+    #[arg(short, long = "output", alias = "out", value_name = "FILE")]
     out: Option<PathBuf>,
     /// Write the use of each channel of the network to this CSV file
     #[arg(long, value_name = "FILE")]

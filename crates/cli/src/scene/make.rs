@@ -6,7 +6,7 @@ use clap::Args;
 use scenemaker::{MOST_TABLES, SceneKind, SceneText};
 
 use crate::exit::Exit;
-use crate::files::make_folder;
+use crate::files::{check_writable, make_folder, write};
 
 #[derive(Args)]
 pub struct Arguments {
@@ -22,7 +22,7 @@ pub struct Arguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(..=i64::from(MOST_TABLES)))]
     tables: Option<u32>,
     /// Folder for the OBJ and MTL files
-    #[arg(long, value_name = "DIR", default_value = "scenes")]
+    #[arg(short, long = "output", alias = "out", value_name = "DIR", default_value = "scenes")]
     out: PathBuf,
 }
 
@@ -31,10 +31,12 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let out = &arguments.out;
     make_folder(out, "scenes")?;
     let text = text(arguments)?;
+    let path = |ending: &str| out.join(format!("{}.{ending}", text.name));
+    let files = [(path("obj"), &text.obj), (path("mtl"), &text.mtl)];
+    files.iter().try_for_each(|(path, _)| check_writable(path))?;
     let mut output = String::new();
-    for (ending, contents) in [("obj", &text.obj), ("mtl", &text.mtl)] {
-        let path = out.join(format!("{}.{ending}", text.name));
-        lab::write_file(&path, contents.as_bytes()).map_err(Exit::failure)?;
+    for (path, contents) in files {
+        write(&path, contents)?;
         output += &format!("{}\n", path.display());
     }
     Ok(output)

@@ -1,5 +1,6 @@
 //! `virtwall scene`: scenes.
 
+mod flip;
 mod make;
 mod show;
 
@@ -14,11 +15,14 @@ pub enum Command {
     Make(make::Arguments),
     /// Print what a scene contains, and draw it
     Show(show::Arguments),
+    /// Turn polygons over to the side from which light comes; write the repaired OBJ file
+    Flip(flip::Arguments),
 }
 
 pub fn run(command: &Command) -> Result<String, Exit> {
     match command {
         Command::Make(arguments) => make::run(arguments),
         Command::Show(arguments) => show::run(arguments),
+        Command::Flip(arguments) => flip::run(arguments),
     }
 }

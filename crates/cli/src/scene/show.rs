@@ -1,59 +1,48 @@
 //! `virtwall scene show`: what a scene contains, in numbers and as a picture.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use config::{decimal, short_name};
-use lab::{OpenScene, Solved, Stage, Which};
-use radiosity::glam::DVec3;
-use radiosity::{
-    Camera, LocalEnvironment, PatchSize, Picture, PictureOptions, Rgb, Space, render, studio_light,
-};
+use lab::{FirstLight, OpenScene, Stage, Which, percent};
+use radiosity::{LocalEnvironment, PatchSize, Rgb, Space, render, studio_light};
 
-use crate::arguments::direction;
 use crate::exit::{Exit, print_warnings};
 use crate::files::{check_writable, write};
-use crate::render::solved;
-
-/// The share of the light that may be unshot in a picture.
-const UNSHOT: f64 = 0.1;
+use crate::render::{Look, draw_solution};
 
 #[derive(Args)]
 pub struct Arguments {
     /// Name of a scene, or path to a scene description (.json) or an OBJ file
     scene: String,
-    /// Draw a picture to this PNG file
-    #[arg(long, value_name = "OUT")]
-    png: Option<PathBuf>,
-    /// Direction that is up in the picture [default: as the scene description says, else 0,0,1]
-    #[arg(long, value_name = "X,Y,Z", value_parser = direction, allow_hyphen_values = true)]
-    up: Option<DVec3>,
-    /// Leave out of the picture what is above this height, in metres
-    #[arg(long, value_name = "HEIGHT", allow_hyphen_values = true)]
-    cut_above: Option<f64>,
-    /// Show materials and lights without solving [default]
-    #[arg(long, conflicts_with = "solved")]
-    emitted: bool,
-    /// Show the solution with at most 10 % of the light unshot
+    /// Draw a picture to this PNG file: the solution with at most 10 % of the light unshot, the same
+    /// picture as that of `virtwall render`
+    #[arg(short, long, alias = "png", value_name = "PNG")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    look: Look,
+    /// Draw materials and lights without solving
     #[arg(long)]
+    emitted: bool,
+    /// Draw the solution, as is done by default
+    #[arg(long, hide = true, conflicts_with = "emitted")]
     solved: bool,
 }
 
 /// Draws the picture, if one is asked for; returns the numbers.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
-    if arguments.cut_above.is_some_and(|height| !height.is_finite()) {
-        return Err(Exit::bad_input("--cut-above: not a height; expected metres, such as 2.5"));
-    }
-    arguments.png.iter().try_for_each(|path| check_writable(path))?;
+    arguments.output.iter().try_for_each(|path| check_writable(path))?;
     let open = OpenScene::load(&arguments.scene)?;
     print_warnings(open.all_warnings());
-    let (_, whole) = meshed(&open);
-    let mut text = numbers(&open, &whole);
-    if let Some(path) = &arguments.png {
-        let (picture, unshot) = picture(&open, arguments)?;
-        text += &unshot;
-        let bytes = picture.encode_png().map_err(Exit::failure)?;
-        write(path, &bytes)?;
+    let mut text = numbers(&open, &meshed(&open).1);
+    match &arguments.output {
+        Some(path) if arguments.emitted => draw_emitted(&open, &arguments.look, path)?,
+        Some(path) => {
+            let stage = Stage::open(&arguments.scene, &Which { set: &[], row: None })?;
+            let left = draw_solution(&stage, &arguments.look, path)?;
+            text += &format!("{:<16}{left}\n", "picture");
+        }
+        None => {}
     }
     Ok(text)
 }
@@ -75,7 +64,13 @@ pub fn meshed(open: &OpenScene) -> (Space, LocalEnvironment) {
 
 fn numbers(open: &OpenScene, whole: &LocalEnvironment) -> String {
     let scene = &open.scene;
-    let world = |local: Rgb| (local + scene.origin).to_array().map(|c| decimal(c, 2)).join(" ");
+    let world = |local: Rgb| {
+        let place = local + scene.origin;
+        // What adding and subtracting the origin leaves of a zero.
+        let rounding = 2.0 * f64::EPSILON * scene.origin.abs().max_element();
+        let exact = |c: f64| if c.abs() <= rounding { 0.0 } else { c };
+        place.to_array().map(|c| decimal(exact(c), 2)).join(" ")
+    };
     let power = scene.emitted_power().to_array().map(|watts| decimal(watts, 1)).join(" ");
     let lights = scene.polygons.iter().filter(|p| scene.material(p).emission != Rgb::ZERO).count();
     let [x, y, z] = open.cells;
@@ -89,10 +84,14 @@ fn numbers(open: &OpenScene, whole: &LocalEnvironment) -> String {
     line("bounds", format!("{} to {} m", world(scene.bounds.min), world(scene.bounds.max)));
     line("area", format!("{} m²", decimal(scene.area(), 1)));
     line("emitted power", format!("{power} W (red, green, blue)"));
-    line(
-        "patch size",
-        format!("{:.3} m, of lights {:.3} m", open.patch_size, open.emitter_patch_size),
-    );
+    if let Some(FirstLight { fronts, backs, leaves, .. }) = open.first_light {
+        let [fronts, backs, leaves] = [fronts, backs, leaves].map(percent);
+        let falls =
+            format!("{fronts} falls on fronts, {backs} on backs, {leaves} leaves the scene");
+        line("light of lamps", falls);
+    }
+    let [size, of_lights] = [open.patch_size, open.emitter_patch_size].map(|m| decimal(m, 3));
+    line("patch size", format!("{size} m, of lights {of_lights} m"));
     line("patches", format!("{} before any cut", whole.patches.len()));
     line("cells", format!("{x} x {y} x {z}"));
     for medium in &scene.media {
@@ -102,23 +101,11 @@ fn numbers(open: &OpenScene, whole: &LocalEnvironment) -> String {
     text
 }
 
-fn picture(open: &OpenScene, arguments: &Arguments) -> Result<(Picture, String), Exit> {
-    let up = arguments.up.unwrap_or(open.scene.up);
-    let camera = Camera::overview(&open.scene.bounds, up, 1200, 800);
-    let cut_above = arguments.cut_above.map(|height| (up, height - open.scene.origin.dot(up)));
-    let options = PictureOptions { cut_above, ..PictureOptions::default() };
-    if !arguments.solved {
-        let picture = render(&open.scene, &camera, studio_light(&open.scene, up), options);
-        return Ok((picture.map_err(Exit::bad_input)?, String::new()));
-    }
-    let stage = Stage::open(&arguments.scene, &Which { set: &[], row: None })?;
-    let Solved { light, left, shots } = solved(&stage, UNSHOT);
-    let whole = &stage.environments()[0];
-    let colour = |polygon, point| {
-        whole.patch_at(polygon, point).map_or(Rgb::ZERO, |patch| light[0][patch as usize])
-    };
-    let picture =
-        render(&stage.space().scene, &camera, colour, options).map_err(Exit::bad_input)?;
-    let unshot = format!("{:.1} % of the light after {shots} shots", 100.0 * left);
-    Ok((picture, format!("{:<16}{unshot}\n", "unshot")))
+/// Draws materials and lights, without solving.
+fn draw_emitted(open: &OpenScene, look: &Look, path: &Path) -> Result<(), Exit> {
+    let scene = &open.scene;
+    let options = look.options(scene, look.exposure());
+    let light = studio_light(scene, look.up(scene));
+    let picture = render(scene, &look.camera(scene)?, light, options).map_err(Exit::bad_input)?;
+    write(path, picture.encode_png().map_err(Exit::failure)?)
 }

@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 pub const PLAIN: &str = "letters, digits, \"-\", \"_\" and \".\", the first one no \".\"";
 
@@ -12,12 +12,32 @@ pub fn is_plain(name: &str) -> bool {
     !name.is_empty() && name.len() <= 100 && !name.starts_with('.') && name.chars().all(plain)
 }
 
-/// Writes a file under a temporary name beside it and then renames it: a reader, or a run that
+/// Where a file at this path is written. A link is followed; a device or a named pipe, which a file would
+/// replace, is refused.
+///
+/// # Errors
+/// If there is something else than a regular file, or a link that leads to none.
+pub fn target(path: &Path) -> io::Result<PathBuf> {
+    let refused = |why: &str| named(path, "cannot be written", &io::Error::other(why));
+    match (fs::symlink_metadata(path), fs::metadata(path)) {
+        (Ok(link), Ok(end)) if link.is_symlink() && end.is_file() => {
+            fs::canonicalize(path).map_err(|error| named(path, "cannot be written", &error))
+        }
+        (_, Ok(end)) if end.is_file() => Ok(path.to_owned()),
+        (_, Ok(end)) if end.is_dir() => Err(refused("it is a folder")),
+        (_, Ok(_)) => Err(refused("not a regular file")),
+        (Ok(_), Err(_)) => Err(refused("a link that leads to no file")),
+        (Err(_), Err(_)) => Ok(path.to_owned()),
+    }
+}
+
+/// Writes a file under a temporary name beside its target and then renames it: a reader, or a run that
 /// was killed, never sees half of it.
 ///
 /// # Errors
-/// The system's, with the file's name.
+/// Those of [`target`], and the system's, with the file's name.
 pub fn write(path: &Path, contents: &[u8]) -> io::Result<()> {
+    let path = &target(path)?;
     let mut temporary = path.as_os_str().to_owned();
     temporary.push(format!(".{}.tmp", std::process::id()));
     let written = fs::write(&temporary, contents).and_then(|()| fs::rename(&temporary, path));

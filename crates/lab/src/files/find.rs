@@ -35,9 +35,18 @@ pub struct Found {
 /// A file at a path from the folder of the one that names it.
 pub fn named_from(folder: &Path, name: &str) -> Result<PathBuf, String> {
     let path = folder.join(name);
-    match shipped::is_file(&path) {
-        true => Ok(path),
-        false => Err(format!("\"{name}\": no such file; expected a path from this file")),
+    match missing(&path) {
+        None => Ok(path),
+        Some(missing) => Err(format!("\"{name}\": {missing}; expected a path from this file")),
+    }
+}
+
+/// What is said of a path without a file: that nothing is there, or something that is no regular file.
+pub fn missing(path: &Path) -> Option<&'static str> {
+    match path.exists() {
+        _ if shipped::is_file(path) => None,
+        true => Some("not a regular file"),
+        false => Some("no such file"),
     }
 }
 
@@ -84,16 +93,19 @@ fn find_in(
     kind: &FileKind,
     name: &str,
 ) -> Result<Found, String> {
+    let paths = [folder.join(name), PathBuf::from(name)];
     let at_path = || {
-        let mut paths = [folder.join(name), PathBuf::from(name)].into_iter();
-        Some(Found { path: paths.find(|path| shipped::is_file(path))?, label: name.to_owned() })
+        let path = paths.iter().find(|path| shipped::is_file(path))?.clone();
+        Some(Found { path, label: name.to_owned() })
     };
     let ending = Path::new(name).extension().unwrap_or_default();
     if name.contains(['/', '\\']) || ["json", "obj"].iter().any(|e| ending.eq_ignore_ascii_case(e))
     {
         return at_path().ok_or_else(|| {
             let from = if folder == Path::new("") { Path::new(".") } else { folder };
-            format!("\"{name}\": no such file; expected a path from {}", from.display())
+            let missing = missing(paths.iter().find(|path| path.exists()).unwrap_or(&paths[0]));
+            let missing = missing.unwrap_or_default();
+            format!("\"{name}\": {missing}; expected a path from {}", from.display())
         });
     }
     let built_in = Path::new(shipped::ROOT).join(kind.folder);
@@ -106,6 +118,10 @@ fn find_in(
     }
     if let Some(found) = at_path() {
         return Ok(found);
+    }
+    let of_kind = all().map(|folder| folder.join(&file));
+    if let Some(path) = of_kind.chain(paths.clone()).find(|path| path.exists() && !path.is_dir()) {
+        return Err(format!("{}: not a regular file", path.display()));
     }
     let mut known: Vec<String> = all().flat_map(|folder| names(folder)).collect();
     known.sort();

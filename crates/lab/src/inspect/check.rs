@@ -4,6 +4,7 @@ use std::path::Path;
 
 use config::{Document, Fault, json, read_text};
 use multicomputer::{LinkParameters, RouterStages, Trace, Workload};
+use radiosity::{load_mtl, read_regular_file};
 
 use crate::engine::simulator;
 use crate::files::find::Found;
@@ -27,11 +28,14 @@ impl From<String> for Checked {
     }
 }
 
-/// Validates an experiment, a machine, a trace, a scene description or an OBJ file, with all that
+/// Validates an experiment, a machine, a trace, a scene description, an OBJ or an MTL file, with all that
 /// it names, and says what it is.
 pub fn check(path: &Path) -> Result<Checked, Fault> {
     if is_obj(path) {
         return scene(path, "an OBJ file");
+    }
+    if is_mtl(path) {
+        return materials(path);
     }
     if Workload::is_named(path) {
         return workload(path);
@@ -70,7 +74,7 @@ pub fn check(path: &Path) -> Result<Checked, Fault> {
         return Ok(what.into());
     }
     let message = "neither an experiment (\"scene\"), a scene (\"obj\" or \"made\") nor a machine (\"processor\"); \
-                   expected one of them, a trace, or an OBJ file";
+                   expected one of them, a trace, an OBJ or an MTL file";
     Err(Fault::of_file(path.display(), message))
 }
 
@@ -97,4 +101,20 @@ fn scene(path: &Path, kind: &str) -> Result<Checked, Fault> {
     let scene = Scene::load(&found)?;
     let what = format!("{kind}, {} polygons", scene.geometry.polygons.len());
     Ok(Checked { what, warnings: scene.all_warnings().cloned().collect() })
+}
+
+/// Whether the name of a file says that it is an MTL file.
+fn is_mtl(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mtl"))
+}
+
+fn materials(path: &Path) -> Result<Checked, Fault> {
+    let (materials, warnings) = load_mtl(path, &read_regular_file).map_err(Fault::complete)?;
+    let count = materials.len();
+    let s = if count == 1 { "" } else { "s" };
+    let say = |warning: &radiosity::Warning| format!("{}: {warning}", path.display());
+    Ok(Checked {
+        what: format!("an MTL file, {count} material{s}"),
+        warnings: warnings.iter().map(say).collect(),
+    })
 }

@@ -141,13 +141,18 @@ impl Stage {
     }
 
     /// The light of the run at each of these times, in rising order; after its end there is no other.
-    /// And when it ends.
+    /// And when it ends. Calls `on_shot` after each shot.
     ///
     /// # Errors
     /// Why the run did not end, or that there is none.
-    pub fn light_at(&self, times: &[Time]) -> Result<(Vec<Light>, Time), String> {
+    pub fn light_at(
+        &self,
+        times: &[Time],
+        on_shot: impl Fn() + Send + Sync + 'static,
+    ) -> Result<(Vec<Light>, Time), String> {
         let Some(staged) = &self.run else { return Err("no run lights it".to_owned()) };
-        let run = simulator::run(&self.problem, &staged.point, &staged.kept, Arc::new(|_| ()));
+        let on_shot = Arc::new(move |_: &_| on_shot());
+        let run = simulator::run(&self.problem, &staged.point, &staged.kept, on_shot);
         simulator::light_at(&run, &staged.point, &staged.machine, times)
     }
 }

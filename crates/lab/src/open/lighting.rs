@@ -1,22 +1,20 @@
-//! Warnings about the light of a scene: there is none, or it falls on backs.
+//! Warnings about scenes that cannot be meant: without light, inside out, in another unit.
 
-use radiosity::glam::DVec3;
-use radiosity::{ObjFile, Polygon, Rgb, Scene};
+use radiosity::{ObjFile, Polygon, Scene};
 
-/// Most lamps from which rays are cast.
-const LAMPS: usize = 8;
+use crate::open::first_light::{FirstLight, emits};
 
-/// Directions of the rays of a lamp, whose normal is z.
-const DIRECTIONS: [DVec3; 8] = [
-    DVec3::new(0.17, 0.02, 0.98),
-    DVec3::new(-0.07, 0.42, 0.91),
-    DVec3::new(-0.44, -0.37, 0.82),
-    DVec3::new(0.66, -0.24, 0.71),
-    DVec3::new(0.38, 0.66, 0.64),
-    DVec3::new(-0.75, 0.43, 0.5),
-    DVec3::new(0.03, -0.91, 0.42),
-    DVec3::new(-0.91, -0.33, 0.26),
-];
+/// The share of the light of the lamps on backs from which on there is a warning.
+const BACKS: f64 = 0.01;
+
+/// The share of the light that leaves a room with a window or a gap, but not an outdoor scene.
+const LEAVES: f64 = 0.01;
+
+/// The share of the area that lamps have in a room; a sky has more.
+const LAMPS: f64 = 0.25;
+
+/// Longest way of light from a lamp, on average, metres: the largest halls are 160 m high.
+const LONGEST: f64 = 200.0;
 
 /// Names of the materials in use that older files would mean as lamps: by `Ka` above 1.
 pub fn bright_ambients(file: &ObjFile) -> Vec<String> {
@@ -24,73 +22,74 @@ pub fn bright_ambients(file: &ObjFile) -> Vec<String> {
     bright.map(|material| format!("\"{}\"", material.name())).collect()
 }
 
-/// A warning if nothing emits light or if most of what is emitted falls on backs.
-pub fn warning(scene: &Scene, bright_ambients: &[String]) -> Option<String> {
-    let lamps: Vec<&Polygon> =
-        scene.polygons.iter().filter(|p| scene.material(p).emission != Rgb::ZERO).collect();
-    if lamps.is_empty() {
+/// Warnings if nothing emits light, if light is lost at once, or if the scene is too large to be in metres.
+pub fn warnings(
+    scene: &Scene,
+    light: Option<&FirstLight>,
+    bright_ambients: &[String],
+) -> Vec<String> {
+    let Some(light) = light else {
         let meant = match bright_ambients {
+            _ if scene.polygons.iter().any(|polygon| emits(scene, polygon)) => return Vec::new(),
             [] => String::new(),
             names => format!(" (Ka is above 1 in {}, perhaps meant as lamps)", names.join(", ")),
         };
         let what_to_do = "give a material Ke in its MTL file, or in a scene file";
-        return Some(format!("no polygon emits light, so that all is dark{meant}: {what_to_do}"));
-    }
-    let (hits, backs) = rays(scene, &lamps);
-    if 2 * backs <= hits {
+        return vec![format!("no polygon emits light, so that all is dark{meant}: {what_to_do}")];
+    };
+    let all = [outward(scene, light), away(light), unit(scene, light)];
+    all.into_iter().flatten().collect()
+}
+
+/// That light falls on backs.
+fn outward(scene: &Scene, light: &FirstLight) -> Option<String> {
+    if light.backs < BACKS {
         return None;
     }
     let all = scene.polygons.len();
-    let outward = scene.polygons.iter().filter(|polygon| faces_out(scene, polygon)).count();
-    let polygons = match outward {
+    let polygons = match scene.polygons.iter().filter(|polygon| faces_out(scene, polygon)).count() {
         0 => String::new(),
         count => format!(" ({count} of {all} polygons face out of the scene and have no patches)"),
     };
     Some(format!(
-        "{backs} of {hits} rays from lamps fall on backs, which absorb all light{polygons}: turn these \
-         polygons over, since fronts are where corners run counter-clockwise, or make their \
-         materials two-sided"
+        "{} of the light of the lamps falls on backs, which absorb all light{polygons}: fronts are where \
+         corners run counter-clockwise. To turn polygons over: virtwall scene flip; to make both sides \
+         reflect: \"two_sided\": true in a scene file",
+        percent(light.backs)
     ))
 }
 
-/// The numbers of rays from lamps that meet a polygon, and that meet only its back.
-fn rays(scene: &Scene, lamps: &[&Polygon]) -> (usize, usize) {
-    let some = lamps.iter().step_by(lamps.len().div_ceil(LAMPS));
-    let rays = some.flat_map(|lamp| {
-        let count = lamp.vertices.len() as f64;
-        let centre = scene.corners(lamp).sum::<DVec3>() / count;
-        let normal = lamp.plane.normal;
-        let (u, v) = normal.any_orthonormal_pair();
-        DIRECTIONS.map(|way| (centre, (u * way.x + v * way.y + normal * way.z).normalize()))
-    });
-    let fronts: Vec<bool> = rays.filter_map(|(from, way)| meets_front(scene, from, way)).collect();
-    (fronts.len(), fronts.iter().filter(|&&front| !front).count())
+/// That all light leaves the scene.
+fn away(light: &FirstLight) -> Option<String> {
+    (light.leaves == 1.0).then(|| {
+        "100 % of the light of the lamps leaves the scene, so that all else is dark: lamps shine from their \
+         fronts, where corners run counter-clockwise. To turn them over: virtwall scene flip"
+            .to_owned()
+    })
 }
 
-/// Whether the nearest polygon along a ray shows its front; `None` if there is no polygon.
-fn meets_front(scene: &Scene, from: DVec3, way: DVec3) -> Option<bool> {
-    let tolerance = scene.tolerance();
-    let mut nearest: Option<(f64, bool)> = None;
-    for polygon in &scene.polygons {
-        let towards = polygon.plane.normal.dot(way);
-        let distance = (polygon.plane.offset - polygon.plane.normal.dot(from)) / towards;
-        let front = towards < 0.0;
-        // Polygons back to back are at the same distance: one of them shows its front.
-        let nearer = nearest.is_none_or(|(least, _)| distance < least - tolerance);
-        let same = || nearest.is_some_and(|(least, _)| front && distance <= least + tolerance);
-        let ahead = distance > tolerance && distance.is_finite();
-        if ahead && (nearer || same()) && contains(scene, polygon, from + way * distance) {
-            nearest = Some((distance, front));
-        }
+/// That a closed room is larger than any room is.
+fn unit(scene: &Scene, light: &FirstLight) -> Option<String> {
+    let lamps = scene.polygons.iter().filter(|polygon| emits(scene, polygon)).map(|lamp| lamp.area);
+    let is_room = light.leaves <= LEAVES && lamps.sum::<f64>() <= LAMPS * scene.area();
+    if light.path <= LONGEST || !is_room {
+        return None;
     }
-    nearest.map(|(_, front)| front)
+    let [x, y, z] = scene.bounds.size().to_array().map(|metres| format!("{metres:.0}"));
+    let unit = if light.path > 5.0 * LONGEST { "mm" } else { "cm" };
+    Some(format!(
+        "light goes {:.0} m from a lamp before it meets something, on average, in {x} x {y} x {z} m: lengths \
+         are metres. If the file has others: \"unit\": \"{unit}\" in a scene file",
+        light.path
+    ))
 }
 
-/// Whether a point in the plane of a polygon is inside it.
-fn contains(scene: &Scene, polygon: &Polygon, point: DVec3) -> bool {
-    let next = scene.corners(polygon).skip(1).chain(scene.corners(polygon).take(1));
-    let mut edges = scene.corners(polygon).zip(next);
-    edges.all(|(a, b)| (b - a).cross(point - a).dot(polygon.plane.normal) >= 0.0)
+/// A share that is not 0 or 1 as a percentage that is neither.
+pub fn percent(share: f64) -> String {
+    match 100.0 * share {
+        all @ (0.0 | 100.0) => format!("{all} %"),
+        part => format!("{:.1} %", part.clamp(0.1, 99.9)),
+    }
 }
 
 /// Whether a polygon is in a side of the scene's bounds and faces outwards.

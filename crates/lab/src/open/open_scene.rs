@@ -4,6 +4,7 @@ use config::Fault;
 
 use crate::experiment::fields::Experiment;
 use crate::files::find::{FileKind, find_here};
+use crate::open::first_light::FirstLight;
 use crate::open::scene::Scene;
 use crate::open::settings::Settings;
 
@@ -17,8 +18,10 @@ pub struct OpenScene {
     pub scene: radiosity::Scene,
     /// What was corrected on loading.
     pub warnings: Vec<String>,
-    /// That it is dark, or seems to be inside out.
-    pub light_warning: Option<String>,
+    /// That it is dark, inside out, or in another unit.
+    pub light_warnings: Vec<String>,
+    /// Where the light of its lamps falls, if it has lamps.
+    pub first_light: Option<FirstLight>,
     /// Longest edge of a patch, metres.
     pub patch_size: f64,
     /// Longest edge of a patch that emits light, metres.
@@ -40,7 +43,8 @@ impl OpenScene {
             label: found.label,
             scene: scene.geometry,
             warnings: scene.warnings,
-            light_warning: scene.light_warning,
+            light_warnings: scene.light_warnings,
+            first_light: scene.first_light,
             patch_size: settings.patch_size,
             emitter_patch_size: settings.emitter_patch_size,
             cells: settings.cells.0,
@@ -49,7 +53,7 @@ impl OpenScene {
 
     /// All warnings.
     pub fn all_warnings(&self) -> impl Iterator<Item = &String> {
-        self.warnings.iter().chain(&self.light_warning)
+        self.warnings.iter().chain(&self.light_warnings)
     }
 
     /// The scene, if it has no participating media.

@@ -12,6 +12,7 @@ use crate::files::counts::Triple;
 use crate::files::quantity::Length;
 use crate::open::medium::MediumFields;
 use crate::open::surface::{self, Surfaces};
+use crate::open::unit::Unit;
 use crate::open::up::Up;
 
 /// The schema of a scene description.
@@ -36,6 +37,10 @@ pub struct SceneFile {
     /// Geometry that is generated when the scene is read, in place of a file.
     #[serde(default)]
     pub made: Option<Made>,
+    /// What a length of 1 in the OBJ file is: "mm", "cm", "m", "km", "in" or "ft". Default: "m". All other lengths
+    /// are in metres.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub unit: Unit,
     /// Longest edge of a patch, such as "0.30 m".
     pub patch_size: Length,
     /// Longest edge of a patch that emits light. Default: as "patch_size".
@@ -54,6 +59,10 @@ pub struct SceneFile {
     /// to absorb light.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub clamp_reflectance: Option<f64>,
+    /// Whether both sides of all surfaces reflect, but for those that emit, and those of which something else
+    /// is said. Default: no.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub two_sided: bool,
     /// For a material, by name, values that replace those of the MTL file.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub materials: Surfaces,
@@ -107,6 +116,10 @@ impl SceneFile {
         }
         surface::check(document, "materials", &file.materials)?;
         surface::check(document, "objects", &file.objects)?;
+        if file.made.is_some() && file.unit != Unit::Metre {
+            let message = "expected none with \"made\", which is in metres";
+            return Err(document.fault(&Place::of("unit"), message));
+        }
         if file.obj.is_some() == file.made.is_some() {
             let message = "expected either \"obj\", a file, or \"made\"";
             return Err(document.fault(&Place::default(), message));

@@ -1,13 +1,17 @@
 //! Which configuration the results in a folder are of. A folder of results belongs to one.
 
+use std::io;
 use std::path::{Path, PathBuf};
 
-use config::Document;
+use config::{Document, short_name};
 use serde_json::{Map, Value};
 
 use crate::engine::simulator::On;
+use crate::experiment::plot::Plot;
 use crate::files::digest::sha256;
+use crate::files::file;
 use crate::planning::plan::Plan;
+use crate::results::{host_times, operations, origin, repeats_csv};
 
 /// Fields of an experiment that decide no figure.
 const PRESENTATION: [&str; 3] = ["$schema", "title", "plots"];
@@ -29,10 +33,57 @@ pub fn folder_for(name: &str, arguments: &[String]) -> PathBuf {
     Path::new("results").join(folder)
 }
 
-/// How the results in a folder differ from those of a plan: the first value of their configurations that does, in
-/// words. None if there are no results, or if they are of the same configuration.
-pub fn difference(plan: &Plan, on: On, out: &Path) -> Option<String> {
-    let there = Document::read(&out.join("manifest.json")).ok()?.value;
+/// The manifest of a folder of results.
+const MANIFEST: &str = "manifest.json";
+
+/// Checks that no result of a plan would replace a device, a named pipe or a folder.
+///
+/// # Errors
+/// Those of [`file::target`].
+pub fn check_targets(plan: &Plan, out: &Path) -> io::Result<()> {
+    let others = [MANIFEST, host_times::FILE, origin::FILE].map(str::to_owned);
+    let mut names = drawn(plan).chain(others);
+    names.try_for_each(|name| file::target(&out.join(name)).map(drop))
+}
+
+/// What stands against the results of a plan in a folder, and what is expected there: files that no run wrote,
+/// or results of another configuration.
+pub fn obstacle(plan: &Plan, on: On, out: &Path) -> Option<String> {
+    let path = out.join(MANIFEST);
+    let place = path.display();
+    if !path.exists() {
+        let foreign = drawn(plan).map(|name| out.join(name)).find(|path| path.exists())?;
+        let foreign = foreign.display();
+        return Some(format!(
+            "{foreign}: not from a run: no {MANIFEST} beside it; expected results that `run` wrote"
+        ));
+    }
+    match Document::read(&path) {
+        Err(fault) => Some(format!("{fault}; expected a manifest that `run` wrote")),
+        Ok(document) if !document.value["experiment"].is_object() => {
+            Some(format!("{place}: no \"experiment\"; expected a manifest that `run` wrote"))
+        }
+        Ok(document) => difference(plan, on, &document.value).map(|difference| {
+            let out = out.display();
+            format!("{out}: has results of another configuration: {difference}; expected the same")
+        }),
+    }
+}
+
+/// Names of the files with the figures of a plan's results: tables, drawings and report.
+fn drawn(plan: &Plan) -> impl Iterator<Item = String> {
+    let plots = serde_json::from_value::<Vec<Plot>>(plan.resolved["plots"].clone());
+    let plots = plots.unwrap_or_default();
+    let repeats =
+        plots.iter().any(|plot| plot.over.is_some()).then(|| repeats_csv::FILE.to_owned());
+    let drawings = plots.into_iter().map(|plot| format!("{}.svg", plot.stem()));
+    let tables = ["runs.csv", operations::FILE, "report.html"].map(str::to_owned);
+    tables.into_iter().chain(repeats).chain(drawings)
+}
+
+/// How results with this manifest differ from those of a plan: the first value of their configurations that does,
+/// in words. None if they are of the same configuration.
+fn difference(plan: &Plan, on: On, there: &Value) -> Option<String> {
     let files = plan.files.iter().map(|file| (file.label.clone(), file.sha256.clone().into()));
     let files: Map<String, Value> = files.collect();
     difference_of_experiments(&plan.resolved, &there["experiment"])
@@ -69,7 +120,7 @@ fn first_difference(place: &str, here: &Value, there: &Value) -> Option<(String,
     }
     let shown = |value: &Value| match value {
         Value::Null => "not given".to_owned(),
-        value => value.to_string(),
+        value => short_name(&value.to_string()),
     };
     (here != there).then(|| (place.to_owned(), shown(here), shown(there)))
 }

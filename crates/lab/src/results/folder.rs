@@ -90,8 +90,11 @@ impl Results {
             return Err(io::Error::other(message));
         }
         file::make_folder(out)?;
+        let before = figures(&out.join("manifest.json"));
+        // The manifest first: a table without one is not from a run.
+        file::write(&out.join("manifest.json"), pretty(&self.manifest)?.as_bytes())?;
         file::write(&out.join("runs.csv"), &self.table.to_csv()?)?;
-        self.present_in(out)?;
+        self.draw_in_place_of(&before, out)?;
         if self.failures() == 0 {
             Saved::in_folder(out).forget()?;
         }
@@ -107,6 +110,10 @@ impl Results {
         if !same {
             file::write(&path, pretty(&self.manifest)?.as_bytes())?;
         }
+        self.draw_in_place_of(&before, out)
+    }
+
+    fn draw_in_place_of(&self, before: &[String], out: &Path) -> io::Result<Vec<String>> {
         let names = self.draw(out)?;
         let stale = before.iter().filter(|name| !names.contains(name));
         stale.into_iter().try_for_each(|name| file::remove(&out.join(name)))?;

@@ -9,7 +9,7 @@ use serde_json::json;
 
 use crate::files::file;
 
-const FILE: &str = "origin.json";
+pub const FILE: &str = "origin.json";
 
 /// Writes into a folder of results where the experiment file is: from the folder on if both are in one
 /// tree, so that the tree can be moved.

@@ -33,6 +33,8 @@ pub struct MtlMaterial {
     /// For each keyword with an impossible value, its line and the problem.
     wrong: BTreeMap<&'static str, (usize, String)>,
     has_reflectance: bool,
+    /// Whether something says if both sides reflect.
+    has_sides: bool,
     /// Statements that are not modelled and change the material, with their kind of warning.
     ignored: BTreeMap<WarningKind, String>,
 }
@@ -45,6 +47,7 @@ impl MtlMaterial {
             path: path.to_owned(),
             wrong: BTreeMap::new(),
             has_reflectance: false,
+            has_sides: false,
             ignored: BTreeMap::new(),
         }
     }
@@ -78,7 +81,13 @@ impl MtlMaterial {
     /// Replaces whether both sides reflect and emit.
     pub fn set_two_sided(&mut self, two_sided: bool) {
         self.material.two_sided = two_sided;
+        self.has_sides = true;
         self.wrong.remove(TWO_SIDED);
+    }
+
+    /// Makes both sides reflect, unless it emits or something else was said.
+    pub(crate) fn default_to_two_sided(&mut self) {
+        self.material.two_sided |= !self.has_sides && self.material.emission == Rgb::ZERO;
     }
 
     /// Lowers reflectances of at most 1 to `most`. Returns what changed, for a warning.
@@ -147,6 +156,7 @@ impl MtlMaterial {
             TWO_SIDED => {
                 let value = words.first().copied().unwrap_or_default();
                 self.material.two_sided = value == "1";
+                self.has_sides = true;
                 let known = ["0", "1"].contains(&value);
                 let problem = format!("{TWO_SIDED} is \"{value}\"; expected 0 or 1");
                 self.note(TWO_SIDED, line, if known { Ok(()) } else { Err(problem) });
@@ -179,6 +189,23 @@ impl MtlMaterial {
 
     fn ignore(&mut self, kind: WarningKind, statement: &str) {
         self.ignored.entry(kind).or_insert_with(|| statement.to_owned());
+    }
+}
+
+/// Reads a material file by itself, through `reader`: its materials, and what is not modelled of them.
+///
+/// # Errors
+/// A file that cannot be read, a material without a name, or the first impossible value.
+pub fn load_mtl(path: &Path, reader: Reader) -> Result<(Vec<Material>, Warnings), SceneError> {
+    let mut library = Library::default();
+    library
+        .load_file(path, reader)
+        .map_err(|source| SceneError::Unreadable { path: path.to_owned(), source })?;
+    let Library { materials, mut warnings, nameless, .. } = library;
+    let used = materials.iter().map(|material| material.used(&mut warnings));
+    match nameless {
+        Some(error) => Err(error),
+        None => Ok((used.collect::<Result<_, _>>()?, warnings)),
     }
 }
 

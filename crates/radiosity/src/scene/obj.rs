@@ -15,7 +15,7 @@ use tobj::{LoadError, LoadOptions, Mesh};
 use super::error::{FARTHEST, SceneError};
 use super::mtl::{Library, MtlMaterial};
 use super::scene::{Face, Scene};
-use super::text::{self, Reader, read_regular_file};
+use super::text::{self, Reader, numbers, read_regular_file};
 use super::warnings::{WarningKind, Warnings};
 
 /// Name of the object of faces before the first `o` or `g`.
@@ -103,6 +103,17 @@ impl ObjFile {
         }
     }
 
+    /// Multiplies all coordinates.
+    pub fn scale(&mut self, factor: f64) {
+        let faces = self.faces.iter_mut();
+        faces.flat_map(|face| &mut face.points).for_each(|point| *point *= factor);
+    }
+
+    /// Makes both sides of all materials reflect that do not emit, and of which nothing else is said.
+    pub fn default_to_two_sided(&mut self) {
+        self.materials.iter_mut().for_each(MtlMaterial::default_to_two_sided);
+    }
+
     /// The scene of the faces, cleaned, and all warnings.
     ///
     /// # Errors
@@ -188,11 +199,6 @@ fn statements(text: &str) -> impl Iterator<Item = Statement<'_>> {
             }
         }
     })
-}
-
-/// Numbers without a comment.
-fn numbers(line: &str) -> &str {
-    line.split('#').next().unwrap_or_default().trim_end()
 }
 
 /// What is wrong with a line.

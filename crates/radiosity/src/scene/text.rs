@@ -31,6 +31,11 @@ pub(crate) fn wrong(path: &Path, line: Option<usize>, problem: String) -> SceneE
     SceneError::InFile { place: format!("{}{line}", path.display()), problem }
 }
 
+/// Numbers without a comment.
+pub(crate) fn numbers(line: &str) -> &str {
+    line.split('#').next().unwrap_or_default().trim_end()
+}
+
 /// A name without a comment. A `#` begins a comment if a space is before it, and a space or nothing
 /// after it: "chair #2" is a name.
 pub(crate) fn name(text: &str) -> &str {
