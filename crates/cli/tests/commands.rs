@@ -287,6 +287,71 @@ fn saved_results_are_drawn_anew() {
     assert_eq!(drawn(), before);
 }
 
+/// The figures and tables of repeats in a folder of results, by name.
+fn drawn(project: &Project) -> Vec<String> {
+    let names = fs::read_dir(project.path("out")).unwrap();
+    let names = names.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let mut drawn: Vec<String> =
+        names.filter(|name| name.ends_with(".svg") || name == "summary.csv").collect();
+    drawn.sort();
+    drawn
+}
+
+/// What the experiment file asks for now is drawn from saved results, and what it asked for before is gone.
+#[test]
+fn saved_results_are_drawn_with_the_present_plots() {
+    let with = |plots: &str| SWEEP.replace("\"plots\": [", &format!("\"plots\": [{plots}, "));
+    let over =
+        r#"{"x": "processors", "y": "time_s", "over": "hemisphere.pixels", "facet": "scene"}"#;
+    let project = Project::new(SWEEP);
+    let plot = || output(&project, &["plot", "out"]);
+    assert_eq!(output(&project, &["run", "experiments/x.json", "--out", "out"]).0, 0);
+    let manifest = || fs::read_to_string(project.path("out/manifest.json")).unwrap();
+    let (first, csv) = (manifest(), fs::read(project.path("out/runs.csv")).unwrap());
+    assert_eq!(
+        (plot().2.as_str(), manifest()),
+        ("Plots are those of experiments/x.json.\n", first.clone())
+    );
+    project.write("experiments/x.json", &with(over));
+    assert_eq!(plot().0, 0);
+    let names = ["speed_up-by-processors.svg", "summary.csv", "time_s-by-processors.svg"];
+    assert_eq!(drawn(&project), names);
+    let summary = fs::read_to_string(project.path("out/summary.csv")).unwrap();
+    assert!(
+        summary.contains("\ntime_s-by-processors,box,,processors,1,time_s,hemisphere.pixels,2,"),
+        "{summary}"
+    );
+    // The folder is as if it had been run with these plots.
+    let arguments = ["run", "experiments/x.json", "--out", "out2"];
+    assert_eq!(output(&project, &arguments).0, 0);
+    assert_eq!(manifest(), fs::read_to_string(project.path("out2/manifest.json")).unwrap());
+    project.write("experiments/x.json", SWEEP);
+    assert_eq!(plot().0, 0);
+    assert_eq!(drawn(&project), names[..1]);
+    assert_eq!((manifest(), fs::read(project.path("out/runs.csv")).unwrap()), (first, csv));
+
+    // Another configuration's plots are not those of these results.
+    project.write("experiments/x.json", &with(over).replace("[1, 2, 4]", "[1, 2]"));
+    let (code, _, stderr) = plot();
+    assert_eq!(
+        (code, stderr.as_str()),
+        (
+            0,
+            "Plots are those of manifest.json: experiments/x.json is of another configuration now: \
+             processors is [1,2] there and [1,2,4] here.\n"
+        )
+    );
+    assert_eq!(drawn(&project), names[..1]);
+    let unknown = r#"{"x": "processors", "y": "error_l2"}"#;
+    project.write("experiments/x.json", &with(unknown));
+    let (code, _, stderr) = plot();
+    assert_eq!(code, 2);
+    assert!(
+        stderr.contains("experiments/x.json:4: plots[0].y: unknown column \"error_l2\""),
+        "{stderr}"
+    );
+}
+
 #[test]
 fn files_are_told_apart() {
     let project = Project::new(SWEEP);

@@ -17,7 +17,7 @@ mod run; // carries out the runs of a plan on worker threads
 mod table; // the table of results: its columns, and what is read from it
 
 pub use engine::simulator::{Light, On, Solved};
-pub use experiment::fields::Plot;
+pub use experiment::plot::Plot;
 pub use experiment::schema::experiment_schema;
 pub use files::digest::{sealed, unsealed};
 pub use files::file::{check_writable, target, write as write_file};
@@ -62,5 +62,5 @@ pub use viewer::LivePage;
 /// Draws a plot of a table as the text of an SVG file; a column `paper_<y>` or
 /// `published_<y>` holds published points.
 pub fn svg(table: &Table, plot: &Plot) -> String {
-    results::chart::svg(table, &[], plot)
+    results::chart::svg(table, &[], plot, 1)
 }

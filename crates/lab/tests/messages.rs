@@ -230,6 +230,43 @@ fn experiments_are_refused_with_place_value_and_expectation() {
              digits, \"-\", \"_\" and \".\", the first one no \".\"",
         ),
         (
+            &format!(
+                "{{{good}, \"plots\": [{{\"x\": \"processors\", \"y\": \"time_s\", \"over\": \"seed\"}}]}}"
+            ),
+            "experiments/x.json:1: plots[0].over: \"seed\" is not swept; with \"over\" expected a \
+             swept field (none here)",
+        ),
+        (
+            &format!(
+                "{{{good}, \"seed\": [1, 2], \"plots\": [{{\"x\": \"time_s\", \"y\": \"patches\", \
+                 \"over\": \"seed\"}}]}}"
+            ),
+            "experiments/x.json:1: plots[0].x: \"time_s\" is not swept; with \"over\" expected a \
+             swept field (seed)",
+        ),
+        (
+            &format!(
+                "{{{good}, \"seed\": [1, 2], \"plots\": [{{\"x\": \"seed\", \"y\": \"time_s\", \
+                 \"over\": \"seed\"}}]}}"
+            ),
+            "experiments/x.json:1: plots[0].over: \"seed\" is \"x\" too; expected another swept \
+             field (seed)",
+        ),
+        (
+            &format!(
+                "{{{good}, \"plots\": [{{\"x\": \"processors\", \"y\": \"time_s\", \
+                 \"lines\": [{{\"y\": 2}}, {{\"x\": 1, \"y\": 2}}]}}]}}"
+            ),
+            "experiments/x.json:1: plots[0].lines[1]: both of \"x\" and \"y\"; expected one of them",
+        ),
+        (
+            &format!(
+                "{{{good}, \"plots\": [{{\"x\": \"processors\", \"y\": \"time_s\", \"log_y\": true, \
+                 \"lines\": [{{\"y\": 0}}]}}]}}"
+            ),
+            "experiments/x.json:1: plots[0].lines[0].y: 0 on a logarithmic axis; expected a number above 0",
+        ),
+        (
             &format!("{{{good}, \"title\": [\"a\", \"b\"]}}").replacen("\"title\": \"t\", ", "", 1),
             "experiments/x.json:1: title: found a list; expected a string",
         ),
@@ -525,4 +562,15 @@ fn many_problems_and_machines_are_refused_before_they_are_made() {
             (many, _) => panic!("{field}: {:?}", many.err()),
         }
     }
+}
+
+#[test]
+fn panels_are_of_a_known_column() {
+    let project = Project::new(
+        r#"{"title": "t", "scene": "box", "processors": 1, "local_environments": 4,
+            "plots": [{"x": "processors", "y": "time_s", "facet": "scen"}]}"#,
+    );
+    let message = message(&project, &[]);
+    let expected = "plots[0].facet: unknown column \"scen\", did you mean \"scene\"? (there are: ";
+    assert!(message.contains(expected), "{message}");
 }

@@ -49,12 +49,21 @@ fn runs_of_committed_results_can_be_drawn() {
     assert!(opened >= 17, "{opened}");
 }
 
-/// Figures are drawn from the tables beside them.
+/// Figures are drawn from the tables beside them, as the experiment files ask for.
 #[test]
 fn committed_figures_are_those_of_their_data() {
     let mut other = Vec::new();
     for folder in listed("results") {
-        let Ok(results) = Results::read(&folder) else { continue };
+        let Ok(mut results) = Results::read(&folder) else { continue };
+        let manifest = results.manifest.clone();
+        let plots = results.take_present_plots(&folder).unwrap();
+        assert!(plots.starts_with("Plots are those of experiments/"), "{plots}");
+        assert_eq!(
+            results.manifest,
+            manifest,
+            "{}: `virtwall plot` writes it again",
+            folder.display()
+        );
         let drawn = tempfile::tempdir().unwrap();
         let times = "host-times.json";
         if folder.join(times).is_file() {

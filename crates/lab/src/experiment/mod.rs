@@ -5,6 +5,7 @@ pub mod fields; // The fields of an experiment file.
 pub mod hemisphere; // Field `hemisphere`.
 pub mod interfaces; // Fields `interfaces` and `virtual_walls`.
 pub mod machine; // Field `machine`.
+pub mod plot; // One of `plots`.
 pub mod refine; // Field `refine`.
 pub mod schema; // The JSON Schema of experiment files.
 pub mod source_split; // Field `source_split`.

@@ -5,7 +5,8 @@ use std::path::Path;
 use config::{Document, Fault, Place, read, read_text};
 
 use crate::experiment::accuracy::REPLACED;
-use crate::experiment::fields::{Experiment, Plot};
+use crate::experiment::fields::Experiment;
+use crate::experiment::plot::Plot;
 use crate::experiment::sweep::{Sweep, in_words};
 use crate::files::find::{FileKind, find_here};
 use crate::planning::reading::swept;

@@ -9,7 +9,8 @@ use virtwall::Problem;
 
 use crate::accuracy::answer::{Answer, DenseAnswers, Stored};
 use crate::accuracy::tuned::Tuned;
-use crate::experiment::fields::{Experiment, Plot};
+use crate::experiment::fields::Experiment;
+use crate::experiment::plot::Plot;
 use crate::experiment::sweep::{Axis, in_words};
 use crate::files::digest::FileDigest;
 use crate::open::settings::Settings;

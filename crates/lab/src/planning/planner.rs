@@ -28,6 +28,7 @@ use crate::planning::plots::check_plots;
 use crate::planning::preparing::Preparing;
 use crate::planning::suits::suits;
 use crate::table::cheapest::{least_time, read_sweep};
+use crate::table::columns;
 use crate::table::comparison::Comparison;
 use crate::table::runs_csv::Table;
 
@@ -94,7 +95,7 @@ impl<'a> Planner<'a> {
         let drafts = self.sweep.points.iter().map(|point| self.draft(point));
         let mut drafts = drafts.collect::<Result<Vec<Draft>, Fault>>()?;
         // Before settings are found: those of one run are not those of others.
-        let resolved = self.resolved(&drafts[0].typed);
+        let resolved = resolved(self.document, &drafts[0].typed);
         let scenes = self.load()?;
         if self.preparing.finding {
             self.tune(&mut drafts, &scenes)?;
@@ -133,7 +134,10 @@ impl<'a> Planner<'a> {
             warnings,
             files,
         };
-        check_plots(&plan, self.document)?;
+        let axes = &self.sweep.axes;
+        let known = columns::drawable(columns::header(&plan.columns(), axes));
+        let swept: Vec<String> = axes.iter().map(|axis| axis.place.to_string()).collect();
+        check_plots(&plan.plots, &known, &swept, self.document)?;
         Ok(plan)
     }
 
@@ -362,14 +366,6 @@ impl<'a> Planner<'a> {
         self.document.fault(&Place::default(), message)
     }
 
-    /// The experiment file with every default filled in: an equivalent file.
-    fn resolved(&self, first: &Experiment) -> Value {
-        let mut resolved = self.document.value.clone();
-        fill(&mut resolved, serde_json::to_value(first).unwrap_or_default());
-        accuracy::without_replaced(&mut resolved);
-        resolved
-    }
-
     /// The published figures, if there are any, and the file they are from.
     fn comparison(&self, first: &Experiment) -> Result<(Comparison, Option<FileDigest>), Fault> {
         let Some(name) = &first.compare_with else {
@@ -380,4 +376,12 @@ impl<'a> Planner<'a> {
         let bytes = read_bytes(&path)?;
         Ok((Comparison::read(&bytes, &path)?, Some(FileDigest::of(&bytes, name))))
     }
+}
+
+/// The experiment file with every default filled in, from its first run: an equivalent file.
+pub fn resolved(document: &Document, first: &Experiment) -> Value {
+    let mut resolved = document.value.clone();
+    fill(&mut resolved, serde_json::to_value(first).unwrap_or_default());
+    accuracy::without_replaced(&mut resolved);
+    resolved
 }

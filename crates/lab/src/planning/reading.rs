@@ -2,15 +2,16 @@
 
 use std::path::Path;
 
-use config::{Document, Fault, refuse_unknown_keys};
+use config::{Document, Fault, read, refuse_unknown_keys};
+use serde_json::Value;
 
-use crate::experiment::fields::leave_out_comparisons;
+use crate::experiment::fields::{Experiment, leave_out_comparisons};
 use crate::experiment::machine::open_up;
 use crate::experiment::schema::FIELDS;
 use crate::experiment::sweep::Sweep;
 use crate::host::host_memory::half_of_free_memory;
 use crate::planning::plan::Plan;
-use crate::planning::planner::Planner;
+use crate::planning::planner::{Planner, resolved};
 use crate::planning::preparing::Preparing;
 
 impl Plan {
@@ -56,6 +57,16 @@ impl Plan {
         let plan = Planner::new(path, &document, &sweep, &preparing).plan()?;
         Ok((plan, row))
     }
+}
+
+/// An experiment with every default filled in, without its scenes and machines; and the document it is from.
+pub fn read_alone(mut document: Document) -> Result<(Document, Value), Fault> {
+    let sweep = swept(&mut document, &[])?;
+    let point = &sweep.points[0];
+    let first: Experiment = read(&point.value)
+        .map_err(|fault| document.fault(&sweep.place_in_file(point, fault.place), fault.message))?;
+    let resolved = resolved(&document, &first);
+    Ok((document, resolved))
 }
 
 /// Applies `--set` arguments to an experiment and finds its runs.

@@ -1,237 +1,293 @@
-//! Plots as SVG, through plotters. Simulated figures are solid lines with filled markers, the
-//! paper's are dashed lines with hollow markers of the same colour.
+//! Plots as SVG. Lines differ in colour, marker and dash, published ones are finely dotted with hollow markers. Where
+//! lines coincide, each draws some of the dashes, and markers below others are larger.
 
-use plotters::chart::ChartContext;
-use plotters::coord::Shift;
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-
-use crate::experiment::fields::Plot;
-use crate::results::power_law::PowerLaw;
+use crate::experiment::plot::Plot;
+use crate::results::axes::Axes;
+use crate::results::canvas::{self, Canvas, Drawn, GREY, INK, PALE, Side, px};
+use crate::results::label_places::places;
+use crate::results::layout::{Frame, HEAD, LETTER, Layout, SAMPLE, line_name};
+use crate::results::marks::{
+    self, BAND, Ideal, draw_leader, draw_marks, draw_sample, end, fine, ideal,
+};
 use crate::results::scale::Scale;
-use crate::results::series::{Drawing, Series};
+use crate::results::series::{Drawing, Panel, Series};
+use crate::results::strokes::{ALONE, Spot, strokes};
+use crate::results::style::{Marker, PUBLISHED, STYLES, Style};
+use crate::table::axis_title::words;
 use crate::table::measure::Measure;
 use crate::table::runs_csv::Table;
 
-/// Drawing units per pixel: plotters rounds coordinates to whole units, which would be visible.
-const FINE: u32 = 8;
-/// Width of a plot without the names of its lines, and its least height, pixels.
-const SIZE: (u32, u32) = (670, 540);
-/// Height of a line's name, and about the width of one of its letters, pixels.
-const LETTER: (u32, u32) = (8, 17);
-/// Above and below the axes, pixels.
-const HEAD: u32 = 68;
-const FOOT: u32 = 62;
-
-/// Okabe and Ito's colours, which colour-blind readers can tell apart.
-const COLOURS: [RGBColor; 6] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(170, 90, 140),
-    RGBColor(86, 180, 233),
-    RGBColor(90, 90, 90),
-];
-const INK: RGBColor = RGBColor(40, 40, 40);
-const GREY: RGBColor = RGBColor(120, 120, 120);
-const PALE: RGBColor = RGBColor(190, 190, 190);
-const GRID: RGBColor = RGBColor(232, 232, 232);
-
-type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<Scale, Scale>>;
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Drawn = Result<(), Box<dyn std::error::Error>>;
-
-/// Draws a plot of the results as the text of an SVG file.
-pub fn svg(table: &Table, sweeps: &[String], plot: &Plot) -> String {
+/// Draws a plot of the results as the text of an SVG file. Speed-ups are over `base` processors.
+pub fn svg(table: &Table, sweeps: &[String], plot: &Plot, base: u32) -> String {
     let drawing = Drawing::of(table, sweeps, plot);
-    let mut text = String::new();
-    let (width, height) = size(&drawing);
-    let drawn = {
-        let fine = (width * FINE, height * FINE);
-        let area = SVGBackend::with_string(&mut text, fine).into_drawing_area();
-        draw(&area, &drawing, plot)
-    };
-    // Shown in its size in pixels: the view box keeps the finer units.
-    let [fine, pixels] =
-        [FINE, 1].map(|unit| format!("width=\"{}\" height=\"{}\"", width * unit, height * unit));
-    match drawn {
-        Ok(()) => text.replacen(&fine, &pixels, 1),
-        // Drawing to memory does not fail. If it should, the file says so.
-        Err(error) => {
-            format!("<svg xmlns=\"http://www.w3.org/2000/svg\"><desc>{error}</desc></svg>")
+    let title = title(plot);
+    let layout = Layout::of(&drawing, title.chars().count());
+    let (x, y) = (x_scale(&drawing, plot), y_scale(&drawing, plot));
+    let ideal = ideal(plot, base, [x.ends(), y.ends()]);
+    canvas::svg(layout.size, |canvas| {
+        canvas.text(&title, (px(24), px(26)), 19, INK, Side::Right)?;
+        for (number, panel) in drawing.panels.iter().enumerate() {
+            let axes = Axes { frame: layout.frame(number), x: &x, y: &y };
+            // Without points axes have no values.
+            let numbers = layout.has_numbers(number).map(|has| has && !drawing.is_empty());
+            axes.draw(canvas, numbers, layout.turned)?;
+            let name = (axes.frame.left, axes.frame.top - px(14));
+            canvas.text(&layout.panel_name(&panel.name), name, 15, INK, Side::Right)?;
+            draw_panel(canvas, &axes, panel, plot, ideal)?;
+            if layout.is_single() {
+                draw_names(canvas, &axes, &layout, &drawing)?;
+            } else {
+                draw_laws(canvas, &axes, panel)?;
+            }
         }
-    }
+        if !layout.is_single() {
+            draw_legend(canvas, &layout, &drawing)?;
+        }
+        draw_titles(canvas, &layout, &drawing, plot)?;
+        draw_key(canvas, &layout, &drawing, plot, ideal.is_some())
+    })
 }
 
-/// Width and height, pixels: with room for the longest name of a line, and for all of them.
-fn size(drawing: &Drawing) -> (u32, u32) {
-    let longest = drawing.series.iter().map(|series| series.name.chars().count()).max();
-    let width = SIZE.0 + 30 + LETTER.0 * longest.unwrap_or(0).min(100) as u32;
-    let names = drawing.series.len().min(1000) as u32 * LETTER.1;
-    (width, SIZE.1.max(HEAD + FOOT + names))
-}
-
-/// Drawing units of a length in pixels.
-const fn px(pixels: u32) -> i32 {
-    (pixels * FINE) as i32
-}
-
-fn draw(area: &Area, drawing: &Drawing, plot: &Plot) -> Drawn {
+fn title(plot: &Plot) -> String {
     let (x, y) = (Measure::of(&plot.x), Measure::of(&plot.y));
     let title = || format!("{} by {}", y.words(), x.words().to_lowercase());
-    let title = plot.title.clone().unwrap_or_else(title);
-    area.fill(&WHITE)?;
-    area.draw(&Text::new(title, (px(24), px(18)), font(19, INK)))?;
-    let mut chart = ChartBuilder::on(area)
-        .margin_top(px(HEAD))
-        .margin_right(px(size(drawing).0 - SIZE.0))
-        .margin_bottom(px(14))
-        .margin_left(px(14))
-        .x_label_area_size(px(FOOT - 14))
-        .y_label_area_size(px(62))
-        .build_cartesian_2d(x_scale(drawing, plot), y_scale(drawing, plot))?;
-    chart
-        .configure_mesh()
-        .disable_x_mesh()
-        .bold_line_style(line(GRID, 1))
-        .light_line_style(TRANSPARENT)
-        .axis_style(line(PALE, 1))
-        .set_all_tick_mark_size(px(5))
-        .label_style(font(14, INK))
-        .axis_desc_style(font(15, INK))
-        .x_desc(x.with_unit(&drawing.unit))
-        .y_desc(y.with_unit(&drawing.unit_up))
-        .draw()?;
-    let ideal = plot.x == "processors" && plot.y == "speed_up";
-    if ideal {
-        draw_ideal(&mut chart)?;
-    }
-    for (i, series) in drawing.series.iter().enumerate() {
-        draw_series(&mut chart, series, colour(i))?;
-    }
-    draw_names(area, &chart, drawing)?;
-    draw_key(area, &chart, drawing, ideal, plot.mark_name.as_deref().unwrap_or("marked"))
+    plot.title.clone().unwrap_or_else(title)
 }
 
 fn x_scale(drawing: &Drawing, plot: &Plot) -> Scale {
+    if !drawing.categories.is_empty() {
+        return Scale::names(&drawing.categories);
+    }
     let values = drawing.points().map(|(x, _)| x);
-    let scale = match plot.logarithmic()[0] {
-        _ if !drawing.categories.is_empty() => return Scale::names(&drawing.categories),
-        true => Scale::logarithmic(values.clone()),
-        false => Scale::linear(values.clone()),
-    };
+    let lines = plot.lines.iter().filter_map(|line| line.x);
+    let all = values.clone().chain(lines);
+    let scale = if plot.logarithmic()[0] { Scale::logarithmic(all) } else { Scale::linear(all) };
     // Figures of runs are no round numbers.
     if drawing.swept { scale.ticked_at(values) } else { scale }
 }
 
 fn y_scale(drawing: &Drawing, plot: &Plot) -> Scale {
-    let values = drawing.points().map(|(_, y)| y);
-    if plot.logarithmic()[1] { Scale::logarithmic(values) } else { Scale::linear(values) }
+    let lines = plot.lines.iter().filter_map(|line| line.y);
+    let all = drawing.points().map(|(_, y)| y).chain(lines);
+    if plot.logarithmic()[1] { Scale::logarithmic(all) } else { Scale::linear(all) }
 }
 
-/// The speed-up that equals the number of processors.
-fn draw_ideal(chart: &mut Chart) -> Drawn {
-    let (x, y) = (chart.x_range(), chart.y_range());
-    let (from, to) = (x.start.max(y.start), x.end.min(y.end));
-    chart.draw_series(LineSeries::new([(from, from), (to, to)], line(PALE, 1)))?;
-    Ok(())
-}
-
-fn draw_series(chart: &mut Chart, series: &Series, colour: RGBColor) -> Drawn {
-    let paper = series.paper.iter().copied();
-    let dashes = DashedLineSeries::new(paper.clone(), px(6), px(4), line(colour, 1));
-    chart.draw_series(dashes)?;
-    let simulated = series.simulated.iter().copied();
-    // A law is straight between its ends: both axes are logarithmic.
-    let through = |law: PowerLaw| simulated.clone().map(move |(x, _)| (x, law.at(x))).collect();
-    let joined = || series.front.clone().unwrap_or_else(|| simulated.clone().collect());
-    let points: Vec<_> = series.law.map_or_else(joined, through);
-    chart.draw_series(LineSeries::new(points, line(colour, 2)))?;
-    chart.draw_series(paper.clone().map(|at| Circle::new(at, px(4), WHITE.filled())))?;
-    // A single point, where the two should agree, would hide behind ours: a ring around it.
-    let radius = if series.paper.len() == 1 { px(8) } else { px(4) };
-    chart.draw_series(paper.map(|at| Circle::new(at, radius, line(colour, 1))))?;
-    let size = |at: &(f64, f64)| match &series.front {
-        Some(front) if !front.contains(at) => px(2),
-        _ => px(4),
-    };
-    chart.draw_series(simulated.map(|at| Circle::new(at, size(&at), colour.filled())))?;
-    for radius in [px(8), px(9)] {
-        let marked = series.marked.iter().copied();
-        chart.draw_series(marked.map(|at| Circle::new(at, radius, line(INK, 1))))?;
+/// What is inside the axes, or why there is nothing.
+fn draw_panel(
+    canvas: &Canvas,
+    axes: &Axes,
+    panel: &Panel,
+    plot: &Plot,
+    ideal: Option<Ideal>,
+) -> Drawn {
+    if panel.empty.is_empty() {
+        return draw_marks(canvas, axes, panel, plot, ideal);
+    }
+    let Frame { left, top, right, bottom } = axes.frame;
+    canvas.blank([(left + px(1), top - px(1)), (right + px(1), bottom - px(1))])?;
+    // A line of text for each sentence.
+    let sentences: Vec<&str> = panel.empty.split_inclusive(". ").collect();
+    for (line, sentence) in (0..).zip(sentences) {
+        let (x, y) = axes.frame.middle();
+        let at = (x, y - px(30) + px(20) * line);
+        canvas.text(sentence.trim_end(), at, 14, INK, Side::Below)?;
     }
     Ok(())
 }
 
-/// Each line's name at its right end, moved apart where two would overlap.
-fn draw_names(area: &Area, chart: &Chart, drawing: &Drawing) -> Drawn {
-    let ends = drawing.series.iter().enumerate().filter(|(_, series)| !series.name.is_empty());
-    let mut ends: Vec<(i32, usize)> = ends
-        .filter_map(|(i, series)| {
-            let end = series.simulated.last().or(series.paper.last())?;
-            Some((chart.backend_coord(end).1, i))
-        })
-        .collect();
-    ends.sort_unstable();
-    let last = ends.len().saturating_sub(1) as i32;
-    let (left, height) = (px(SIZE.0 + 12), px(LETTER.1));
-    let bottom = px(size(drawing).1 - FOOT) - height * last;
-    let mut free = i32::MIN;
-    for (rank, (y, i)) in (0..).zip(ends) {
-        let y = y.max(free).min(bottom + height * rank);
-        free = y + height;
-        let name = drawing.series[i].name.clone();
-        area.draw(&Text::new(name, (left, y), beside(15, colour(i))))?;
+/// Titles of the axes, once for all panels.
+fn draw_titles(canvas: &Canvas, layout: &Layout, drawing: &Drawing, plot: &Plot) -> Drawn {
+    let whole = layout.whole();
+    let [x, y] = [&plot.x, &plot.y].map(|text| Measure::of(text));
+    let [x_unit, y_unit] = &drawing.units;
+    let (middle, center) = whole.middle();
+    canvas.text(&x.title(x_unit), (middle, layout.below_numbers()), 15, INK, Side::Below)?;
+    canvas.text(&y.title(y_unit), (px(22), center), 15, INK, Side::Upright)
+}
+
+/// The name of a line of a single panel, with its law.
+fn name(drawing: &Drawing, series: &Series) -> String {
+    let law = series.law.map(|law| law.words());
+    let name = Some(drawing.names[series.line].clone()).filter(|name| !name.is_empty());
+    name.into_iter().chain(law).collect::<Vec<_>>().join(": ")
+}
+
+/// Each line's name at the right of the axes, moved apart where two would overlap, with a leader from its end.
+fn draw_names(canvas: &Canvas, axes: &Axes, layout: &Layout, drawing: &Drawing) -> Drawn {
+    let named = drawing.panels[0].series.iter().map(|series| (series, name(drawing, series)));
+    let ends = named.filter(|(_, name)| !name.is_empty());
+    let ends = ends.filter_map(|(series, name)| Some((end(axes, series)?, series, name)));
+    let mut ends: Vec<(Spot, &Series, String)> = ends.collect();
+    ends.sort_by_key(|(end, series, _)| (end.1, series.line));
+    let wanted: Vec<i32> = ends.iter().map(|(end, ..)| end.1).collect();
+    let (left, bottom) = (layout.names(), px(layout.size.1) - px(LETTER.1));
+    let places = places(&wanted, px(LETTER.1), axes.frame.top, bottom);
+    for ((end, series, name), y) in ends.into_iter().zip(places) {
+        let style = Style::of(series.line);
+        draw_leader(canvas, end, axes.frame.right + px(4), (left - px(4), y), style)?;
+        draw_entry(canvas, (left, y), series, &name)?;
     }
     Ok(())
 }
 
-/// What solid and dashed lines and rings mean, in a row above the axes, where no line can run.
-fn draw_key(area: &Area, chart: &Chart, drawing: &Drawing, ideal: bool, marked: &str) -> Drawn {
-    let mut x = chart.plotting_area().get_pixel_range().0.start;
-    let y = px(HEAD - 15);
-    let across = |x: i32, from: u32, to: u32| [(x + px(from), y), (x + px(to), y)];
-    // Names an entry; says where the next one begins.
-    let name = |x: i32, name: &str| -> Result<i32, Box<dyn std::error::Error>> {
-        area.draw(&Text::new(name.to_owned(), (x + px(44), y), beside(14, INK)))?;
-        Ok(x + px(68 + LETTER.0 * name.chars().count() as u32))
-    };
-    if drawing.series.iter().any(|series| !series.paper.is_empty()) {
-        area.draw(&PathElement::new(across(x, 0, 36), line(GREY, 2)))?;
-        area.draw(&Circle::new((x + px(18), y), px(4), GREY.filled()))?;
-        x = name(x, "simulated")?;
-        for dash in [0, 10, 20, 30] {
-            area.draw(&PathElement::new(across(x, dash, dash + 6), line(GREY, 1)))?;
+/// A sample of a line, and its name.
+fn draw_entry(canvas: &Canvas, (x, y): Spot, series: &Series, name: &str) -> Drawn {
+    draw_sample(canvas, (x, y), Style::of(series.line), series.simulated.is_empty())?;
+    canvas.text(&line_name(name), (x + px(SAMPLE + 5), y), 15, INK, Side::Right)
+}
+
+/// The lines of all panels, one below another.
+fn draw_legend(canvas: &Canvas, layout: &Layout, drawing: &Drawing) -> Drawn {
+    let (left, top) = (layout.names(), layout.whole().top);
+    let named = drawing.names.iter().enumerate().filter(|(_, name)| !name.is_empty());
+    let mut y = top + px(LETTER.1 / 2);
+    for (line, name) in named {
+        let all = || drawing.series_of_all().filter(|series| series.line == line);
+        let shown = all().find(|series| !series.simulated.is_empty());
+        let shown = shown.or(all().find(|series| !series.paper.is_empty()));
+        if let Some(series) = shown {
+            draw_entry(canvas, (left, y), series, name)?;
+            y += px(LETTER.1);
         }
-        area.draw(&Circle::new((x + px(18), y), px(4), WHITE.filled()))?;
-        area.draw(&Circle::new((x + px(18), y), px(4), line(GREY, 1)))?;
-        x = name(x, drawing.publisher)?;
+    }
+    Ok(())
+}
+
+/// The laws of the lines of one panel among several, in its upper left corner.
+fn draw_laws(canvas: &Canvas, axes: &Axes, panel: &Panel) -> Drawn {
+    let mut y = axes.frame.top + px(9);
+    for (series, law) in panel.series.iter().filter_map(|series| Some((series, series.law?))) {
+        let (left, style) = (axes.frame.left + px(8), Style::of(series.line));
+        canvas.marker(style.marker, (left + px(4), y), marks::MARKER, style.colour, false)?;
+        canvas.text(&law.words(), (left + px(14), y), 12, INK, Side::Right)?;
+        y += px(15);
+    }
+    Ok(())
+}
+
+/// What marks mean, in a row above the axes, where no line can run.
+fn draw_key(
+    canvas: &Canvas,
+    layout: &Layout,
+    drawing: &Drawing,
+    plot: &Plot,
+    ideal: bool,
+) -> Drawn {
+    let y = px(HEAD - 18);
+    let mut x = layout.whole().left;
+    // Names an entry; the next one begins after it.
+    let name = |x: &mut i32, name: &str| -> Drawn {
+        canvas.text(name, (*x + px(38), y), 14, INK, Side::Right)?;
+        *x += px(62 + LETTER.0 * name.chars().count() as u32);
+        Ok(())
+    };
+    let sample = |x: i32, dash, width, hollow| -> Drawn {
+        let line = [(x, y), (x + px(30), y)];
+        for stroke in strokes(&line, &[ALONE], &fine(dash), 0.0) {
+            canvas.line(stroke, GREY, width)?;
+        }
+        canvas.marker(Marker::Circle, (x + px(15), y), marks::MARKER, GREY, hollow)
+    };
+    let all = || drawing.series_of_all();
+    if all().any(|series| !series.paper.is_empty()) {
+        sample(x, &[], marks::WIDTHS.0, false)?;
+        name(&mut x, "simulated")?;
+        sample(x, PUBLISHED, marks::WIDTHS.1, true)?;
+        name(&mut x, drawing.publisher)?;
     }
     if ideal {
-        area.draw(&PathElement::new(across(x, 0, 36), line(PALE, 1)))?;
-        x = name(x, "ideal")?;
+        canvas.line([(x, y), (x + px(30), y)], PALE, 1.25)?;
+        name(&mut x, "ideal")?;
     }
-    if drawing.series.iter().any(|series| !series.marked.is_empty()) {
-        area.draw(&Circle::new((x + px(26), y), px(9), line(INK, 1)))?;
-        name(x, marked)?;
+    if all().any(|series| !series.marked.is_empty()) {
+        canvas.ring((x + px(20), y), 9)?;
+        name(&mut x, plot.mark_name.as_deref().unwrap_or("marked"))?;
+    }
+    if let Some(over) = &plot.over {
+        let (top, bottom) = (y - px(7), y + px(7));
+        let corners = vec![(x, top), (x + px(30), top), (x + px(30), bottom), (x, bottom)];
+        canvas.fill(corners, GREY, 2.0 * BAND)?;
+        canvas.line([(x, y), (x + px(30), y)], GREY, marks::WIDTHS.0)?;
+        name(&mut x, &format!("mean, 5–95 % over {}", words(over)))?;
+    }
+    for note in notes(drawing) {
+        canvas.text(&note, (x, y), 14, GREY, Side::Right)?;
+        x += px(24 + LETTER.0 * note.chars().count() as u32);
     }
     Ok(())
 }
 
-/// Colours repeat after the last one; names at the lines' ends still distinguish lines.
-fn colour(index: usize) -> RGBColor {
-    COLOURS[index % COLOURS.len()]
+/// What a reader of the figure must know besides.
+fn notes(drawing: &Drawing) -> Vec<String> {
+    let mut notes = Vec::new();
+    if drawing.left_out > 0 {
+        let plural = if drawing.left_out == 1 { "" } else { "s" };
+        notes.push(format!("{} point{plural} not above zero left out", drawing.left_out));
+    }
+    if drawing.names.len() > STYLES {
+        notes.push(format!("{} lines: styles repeat after {STYLES}", drawing.names.len()));
+    }
+    notes
 }
 
-fn line(colour: RGBColor, pixels: u32) -> ShapeStyle {
-    colour.stroke_width(pixels * FINE)
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-fn font(pixels: u32, colour: RGBColor) -> TextStyle<'static> {
-    ("sans-serif", px(pixels)).into_font().color(&colour)
-}
+    fn table(columns: &[&str], rows: &[Vec<String>]) -> Table {
+        Table {
+            columns: columns.iter().map(|&name| name.to_owned()).collect(),
+            rows: rows.to_vec(),
+        }
+    }
 
-/// Text that begins right of its point.
-fn beside(pixels: u32, colour: RGBColor) -> TextStyle<'static> {
-    font(pixels, colour).pos(Pos::new(HPos::Left, VPos::Center))
+    fn plot(text: &str) -> Plot {
+        serde_json::from_str(text).unwrap()
+    }
+
+    /// Lines that coincide all show: each has its colour and dash, or its turns, and all markers.
+    #[test]
+    fn a_sweep_of_24_lines_draws_each() {
+        let rows: Vec<Vec<String>> = (0..STYLES * 3)
+            .map(|i| vec![format!("line {}", i / 3), (i % 3 + 1).to_string(), "7".to_owned()])
+            .collect();
+        let table = table(&["series", "x", "y"], &rows);
+        let sweeps = ["series", "x"].map(str::to_owned);
+        let svg = svg(&table, &sweeps, &plot(r#"{"x": "x", "y": "y"}"#), 1);
+        for line in 0..STYLES {
+            assert!(svg.contains(&format!("\nline {line}\n")), "{line}");
+        }
+        let strokes = |colour: &str| {
+            let lines =
+                svg.lines().filter(|line| line.starts_with("<polyline") && line.contains(colour));
+            lines.filter(|line| line.contains("stroke-width=\"16\"")).count()
+        };
+        // Three lines of a colour, two segments, one turn or more each.
+        assert!(strokes("#0072B2") >= 6 && strokes("#E69F00") >= 6);
+        assert!(!svg.contains("styles repeat"));
+    }
+
+    #[test]
+    fn an_empty_plot_says_why() {
+        let row = |ending: &str| ["1", "", ending].map(str::to_owned).to_vec();
+        let columns = ["x", "y", "ending"];
+        let empty =
+            plot(r#"{"x": "x", "y": "y", "log_y": true, "lines": [{"y": 1, "label": "one"}]}"#);
+        let failed = svg(&table(&columns, &[row("failed"), row("failed")]), &[], &empty, 1);
+        assert!(failed.contains("All 2 runs failed."), "{failed}");
+        let agreed = svg(&table(&columns, &[row("agreed")]), &[], &empty, 1);
+        assert!(agreed.contains("No run has a number as y."), "{agreed}");
+        assert!(svg(&table(&columns, &[]), &[], &empty, 1).contains("There are no runs."));
+    }
+
+    #[test]
+    fn reference_lines_and_titles_are_written() {
+        let rows = [vec!["1".to_owned(), "3 %".to_owned()], vec!["2".to_owned(), "4 %".to_owned()]];
+        let asked =
+            r#"{"x": "time_s", "y": "share", "lines": [{"y": 9, "label": "goal"}, {"x": 1.5}]}"#;
+        let svg = svg(&table(&["time_s", "share"], &rows), &[], &plot(asked), 1);
+        for text in ["goal", "Time (s)", "Share (%)", "Share by time"] {
+            assert!(svg.contains(text), "{text}: {svg}");
+        }
+    }
 }

@@ -7,11 +7,11 @@ use config::{Document, short_name};
 use serde_json::{Map, Value};
 
 use crate::engine::simulator::On;
-use crate::experiment::fields::Plot;
+use crate::experiment::plot::Plot;
 use crate::files::digest::sha256;
 use crate::files::file;
 use crate::planning::plan::Plan;
-use crate::results::{host_times, operations, origin};
+use crate::results::{host_times, operations, origin, repeats_csv};
 
 /// Fields of an experiment that decide no figure.
 const PRESENTATION: [&str; 3] = ["$schema", "title", "plots"];
@@ -73,8 +73,12 @@ pub fn obstacle(plan: &Plan, on: On, out: &Path) -> Option<String> {
 /// Names of the files with the figures of a plan's results: tables, drawings and report.
 fn drawn(plan: &Plan) -> impl Iterator<Item = String> {
     let plots = serde_json::from_value::<Vec<Plot>>(plan.resolved["plots"].clone());
-    let drawings = plots.unwrap_or_default().into_iter().map(|plot| format!("{}.svg", plot.stem()));
-    ["runs.csv", operations::FILE, "report.html"].map(str::to_owned).into_iter().chain(drawings)
+    let plots = plots.unwrap_or_default();
+    let repeats =
+        plots.iter().any(|plot| plot.over.is_some()).then(|| repeats_csv::FILE.to_owned());
+    let drawings = plots.into_iter().map(|plot| format!("{}.svg", plot.stem()));
+    let tables = ["runs.csv", operations::FILE, "report.html"].map(str::to_owned);
+    tables.into_iter().chain(repeats).chain(drawings)
 }
 
 /// How results with this manifest differ from those of a plan: the first value of their configurations that does,
@@ -82,10 +86,13 @@ fn drawn(plan: &Plan) -> impl Iterator<Item = String> {
 fn difference(plan: &Plan, on: On, there: &Value) -> Option<String> {
     let files = plan.files.iter().map(|file| (file.label.clone(), file.sha256.clone().into()));
     let files: Map<String, Value> = files.collect();
-    let named = |place: &str, here: &Value, there: &Value| {
-        first_difference(place, here, there)
-            .map(|(place, here, there)| format!("{place} is {there} there and {here} here"))
-    };
+    difference_of_experiments(&plan.resolved, &there["experiment"])
+        .or_else(|| named("on", &serde_json::json!(on), &there["on"]))
+        .or_else(|| named("SHA-256 of file ", &Value::Object(files), &there["files"]))
+}
+
+/// The first difference of two experiments with all defaults, besides what only presents results, in words.
+pub fn difference_of_experiments(here: &Value, there: &Value) -> Option<String> {
     let without = |experiment: &Value| {
         let mut experiment = experiment.clone();
         let fields = experiment.as_object_mut();
@@ -94,9 +101,12 @@ fn difference(plan: &Plan, on: On, there: &Value) -> Option<String> {
             .for_each(|fields| fields.retain(|key, _| !PRESENTATION.contains(&key.as_str())));
         experiment
     };
-    named("", &without(&plan.resolved), &without(&there["experiment"]))
-        .or_else(|| named("on", &serde_json::json!(on), &there["on"]))
-        .or_else(|| named("SHA-256 of file ", &Value::Object(files), &there["files"]))
+    named("", &without(here), &without(there))
+}
+
+fn named(place: &str, here: &Value, there: &Value) -> Option<String> {
+    first_difference(place, here, there)
+        .map(|(place, here, there)| format!("{place} is {there} there and {here} here"))
 }
 
 /// The place of the first difference of two values, and both values there.

@@ -9,7 +9,7 @@ use serde_json::{Map, Value, json};
 use viewer::ReportParts;
 
 use crate::engine::simulator::On;
-use crate::experiment::fields::Plot;
+use crate::experiment::plot::Plot;
 use crate::files::digest::sha256;
 use crate::files::file::{self, PLAIN, is_plain};
 use crate::host::host_clock::HostTimes;
@@ -19,6 +19,7 @@ use crate::results::console::table_text;
 use crate::results::host_times;
 use crate::results::operations;
 use crate::results::recordings;
+use crate::results::repeats_csv;
 use crate::results::report;
 use crate::results::run_table::run_table;
 use crate::results::without_time;
@@ -93,16 +94,34 @@ impl Results {
         // The manifest first: a table without one is not from a run.
         file::write(&out.join("manifest.json"), pretty(&self.manifest)?.as_bytes())?;
         file::write(&out.join("runs.csv"), &self.table.to_csv()?)?;
-        let names = self.draw(out)?;
-        let stale = before.iter().filter(|name| !names.contains(name));
-        stale.into_iter().try_for_each(|name| file::remove(&out.join(name)))?;
+        self.draw_in_place_of(&before, out)?;
         if self.failures() == 0 {
             Saved::in_folder(out).forget()?;
         }
         Ok(())
     }
 
-    /// Writes what is made of runs.csv into a folder: the table of operations, plots and report, with the host times in it; returns the names of the files.
+    /// Writes the manifest if it is another one, and draws; removes figures of before that are no longer asked for.
+    /// Returns the names of the files drawn.
+    pub fn present_in(&self, out: &Path) -> io::Result<Vec<String>> {
+        let path = out.join("manifest.json");
+        let before = figures(&path);
+        let same = Document::read(&path).is_ok_and(|document| document.value == self.manifest);
+        if !same {
+            file::write(&path, pretty(&self.manifest)?.as_bytes())?;
+        }
+        self.draw_in_place_of(&before, out)
+    }
+
+    fn draw_in_place_of(&self, before: &[String], out: &Path) -> io::Result<Vec<String>> {
+        let names = self.draw(out)?;
+        let stale = before.iter().filter(|name| !names.contains(name));
+        stale.into_iter().try_for_each(|name| file::remove(&out.join(name)))?;
+        Ok(names)
+    }
+
+    /// Writes what is made of runs.csv into a folder: the table of operations, plots and report, with the host times
+    /// in it; returns the names of the files.
     pub fn draw(&self, out: &Path) -> io::Result<Vec<String>> {
         let sweeps = self.sweeps();
         let operations = operations::operations(&self.table, &sweeps).to_csv()?;
@@ -111,16 +130,24 @@ impl Results {
         let mut drawings = Vec::new();
         let table = host_times::beside(&self.table, out);
         let note = without_time::note(&self.manifest);
-        for plot in self.plots() {
-            let plot = if note.is_some() { without_time::titled(&plot, &table) } else { plot };
-            let svg = chart::svg(&table, &sweeps, &plot);
+        let titled = |plot: Plot| match note {
+            Some(_) => without_time::titled(&plot, &table),
+            None => plot,
+        };
+        let plots: Vec<Plot> = self.plots().into_iter().map(titled).collect();
+        for plot in &plots {
+            let svg = chart::svg(&table, &sweeps, plot, self.speed_up_base());
             let name = format!("{}.svg", plot.stem());
             file::write(&out.join(&name), svg.as_bytes())?;
             names.push(name);
             // The report is the same on every host.
-            if !host_times::shown_in(&plot) {
+            if !host_times::shown_in(plot) {
                 drawings.push(svg);
             }
+        }
+        if let Some(summary) = repeats_csv::summary(&table, &sweeps, &plots) {
+            file::write(&out.join(repeats_csv::FILE), &summary.to_csv()?)?;
+            names.push(repeats_csv::FILE.to_owned());
         }
         let recorded = self.recorded.as_ref();
         let html = report::html(&self.manifest, &self.table, &sweeps, &drawings, recorded);
@@ -132,7 +159,7 @@ impl Results {
     /// The table for a terminal.
     pub fn text(&self) -> String {
         let sweeps = self.sweeps();
-        let base = self.manifest["experiment"]["speed_up_over"].as_u64().unwrap_or(1);
+        let base = self.speed_up_base().into();
         let note = without_time::note(&self.manifest);
         let note = note.map_or(String::new(), |note| format!("\n{note}\n"));
         table_text(&self.table, &sweeps, base) + &cheapest::text(&self.table, &sweeps) + &note
@@ -149,18 +176,26 @@ impl Results {
         names.filter_map(|name| Some(name.as_str()?.to_owned())).collect()
     }
 
+    /// The number of processors that speed-ups are over.
+    fn speed_up_base(&self) -> u32 {
+        let base = self.manifest["experiment"]["speed_up_over"].as_u64();
+        base.and_then(|base| u32::try_from(base).ok()).filter(|base| *base > 0).unwrap_or(1)
+    }
+
     fn plots(&self) -> Vec<Plot> {
         // Validated when the plan was made, or when the manifest was read.
         serde_json::from_value(self.manifest["experiment"]["plots"].clone()).unwrap_or_default()
     }
 }
 
-/// The files of the figures of the results with this manifest; none if it cannot be read.
+/// The files of the figures of the results with this manifest, and of their numbers; none if it cannot be read.
 fn figures(manifest: &Path) -> Vec<String> {
     let Ok(document) = Document::read(manifest) else { return Vec::new() };
     let plots = read::<Vec<Plot>>(&document.value["experiment"]["plots"]).unwrap_or_default();
     let stems = plots.iter().map(Plot::stem).filter(|stem| is_plain(stem));
-    stems.map(|stem| format!("{stem}.svg")).collect()
+    let summary =
+        plots.iter().any(|plot| plot.over.is_some()).then(|| repeats_csv::FILE.to_owned());
+    stems.map(|stem| format!("{stem}.svg")).chain(summary).collect()
 }
 
 /// Provenance of the results: everything that decides them, and nothing of the host.

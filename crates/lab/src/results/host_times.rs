@@ -6,7 +6,7 @@ use std::path::Path;
 use config::Document;
 use serde_json::Value;
 
-use crate::experiment::fields::Plot;
+use crate::experiment::plot::Plot;
 use crate::table::columns::{HOST, HOST_TIMES};
 use crate::table::runs_csv::Table;
 

@@ -1,9 +1,5 @@
 //! An axis of a plot: linear, logarithmic, or names side by side.
 
-use std::ops::Range;
-
-use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
-
 /// Approximate number of ticks of a linear axis.
 const TICKS: f64 = 7.0;
 /// Largest number of values that can each have a tick.
@@ -22,10 +18,15 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// A linear axis from 0, or from below if values are negative, to above the largest value.
+    /// A linear axis from 0, or from the least value if it is negative, to the greatest one, with room for a marker
+    /// around both.
     pub fn linear(values: impl Iterator<Item = f64>) -> Scale {
-        let (low, high) = values.fold((0.0, 0.0), |(l, h): (f64, f64), v| (l.min(v), h.max(v)));
-        let high = if high > low { high + 0.04 * (high - low) } else { low + 1.0 };
+        let (least, high) =
+            values.fold((f64::MAX, 0.0), |(l, h): (f64, f64), v| (l.min(v), h.max(v)));
+        let low = least.min(0.0);
+        let margin = 0.04 * (high - low);
+        let low = if least < low + margin { low - margin } else { low };
+        let high = if high > low { high + margin } else { low + 1.0 };
         let step = nice_step((high - low) / TICKS);
         let first = (low / step).ceil() as i64;
         let last = (high / step).floor() as i64;
@@ -67,6 +68,7 @@ impl Scale {
                 self.ticks.push(value);
             }
         }
+        self.ticks.reverse();
         self
     }
 
@@ -77,6 +79,32 @@ impl Scale {
         Scale { low: -0.5, high, logarithmic: false, ticks, names: names.to_vec() }
     }
 
+    /// Where a value is on an axis with these ends.
+    pub fn place(&self, value: f64, low: i32, high: i32) -> i32 {
+        low + (self.share(value).clamp(-1.0, 2.0) * f64::from(high - low)).round() as i32
+    }
+
+    /// Whether it has names in place of numbers.
+    pub fn is_of_names(&self) -> bool {
+        !self.names.is_empty()
+    }
+
+    /// The values that have ticks, rising.
+    pub fn ticks(&self) -> &[f64] {
+        &self.ticks
+    }
+
+    /// The text of a tick.
+    pub fn text(&self, tick: f64) -> String {
+        // Ticks of names are their indices; a cast from f64 saturates.
+        self.names.get(tick as usize).cloned().unwrap_or_else(|| tick_text(tick))
+    }
+
+    /// The lowest and the highest value.
+    pub fn ends(&self) -> [f64; 2] {
+        [self.low, self.high]
+    }
+
     /// Position of a value on the axis: 0 at its low end, 1 at its high end.
     fn share(&self, value: f64) -> f64 {
         if self.logarithmic {
@@ -84,34 +112,6 @@ impl Scale {
         } else {
             (value - self.low) / (self.high - self.low)
         }
-    }
-}
-
-impl Ranged for Scale {
-    type FormatOption = NoDefaultFormatting;
-    type ValueType = f64;
-
-    fn map(&self, value: &f64, (from, to): (i32, i32)) -> i32 {
-        from + (self.share(*value) * f64::from(to - from)).round() as i32
-    }
-
-    fn key_points<Hint: KeyPointHint>(&self, _: Hint) -> Vec<f64> {
-        self.ticks.clone()
-    }
-
-    fn range(&self) -> Range<f64> {
-        self.low..self.high
-    }
-}
-
-impl ValueFormatter<f64> for Scale {
-    fn format(value: &f64) -> String {
-        tick_text(*value)
-    }
-
-    fn format_ext(&self, value: &f64) -> String {
-        // Ticks of names are their indices; a cast from f64 saturates.
-        self.names.get(*value as usize).cloned().unwrap_or_else(|| tick_text(*value))
     }
 }
 
@@ -145,6 +145,10 @@ mod tests {
     fn ticks_are_round_numbers_inside_the_axis() {
         let axis = Scale::linear([1.0, 56.0].into_iter());
         assert_eq!(axis.ticks, [0.0, 10.0, 20.0, 30.0, 40.0, 50.0]);
+        assert_eq!(Scale::linear([50.0, 100.0].into_iter()).ends(), [0.0, 104.0]);
+        let axis = Scale::linear([-100.0].into_iter());
+        assert_eq!(axis.ends(), [-104.0, 4.0]);
+        assert_eq!(Scale::linear([0.0, 100.0].into_iter()).ends(), [-4.0, 104.0]);
         let axis = Scale::logarithmic([1.0, 56.0].into_iter());
         assert_eq!(axis.ticks, [1.0, 2.0, 5.0, 10.0, 20.0, 50.0]);
         assert_eq!(tick_text(3.0 * 0.1), "0.3");
@@ -154,9 +158,9 @@ mod tests {
     fn few_values_are_ticks_themselves_where_there_is_room() {
         let processors = || [1.0, 2.0, 4.0, 7.0, 8.0, 14.0, 28.0, 56.0].into_iter();
         let axis = Scale::linear(processors()).ticked_at(processors());
-        assert_eq!(axis.ticks, [56.0, 28.0, 14.0, 8.0, 4.0, 1.0]);
+        assert_eq!(axis.ticks, [1.0, 4.0, 8.0, 14.0, 28.0, 56.0]);
         let axis = Scale::logarithmic(processors()).ticked_at(processors());
-        assert_eq!(axis.ticks, [56.0, 28.0, 14.0, 8.0, 4.0, 2.0, 1.0]);
+        assert_eq!(axis.ticks, [1.0, 2.0, 4.0, 8.0, 14.0, 28.0, 56.0]);
     }
 
     #[test]
@@ -168,7 +172,7 @@ mod tests {
             Scale::logarithmic([3.0].into_iter()),
         ] {
             assert!(axis.low < axis.high, "{axis:?}");
-            assert!(axis.map(&axis.low, (10, 500)) == 10 && axis.map(&axis.high, (10, 500)) == 500);
+            assert!(axis.place(axis.low, 10, 500) == 10 && axis.place(axis.high, 10, 500) == 500);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::experiment::fields::Plot;
+use crate::experiment::plot::Plot;
 use crate::table::measure::Measure;
 use crate::table::runs_csv::Table;
 

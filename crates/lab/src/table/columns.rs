@@ -45,9 +45,9 @@ pub const HOST_TIMES: [(&str, &str); 3] = [
 pub const OPERATIONS: [&str; 2] = ["operations", "operations."];
 
 /// All columns that can be drawn: those of runs.csv, each count of operations, host times.
-pub fn drawable(columns: &[&Column], axes: &[Axis]) -> Vec<String> {
+pub fn drawable(runs_csv: Vec<String>) -> Vec<String> {
     let others = others().map(|(name, ..)| name);
-    header(columns, axes).into_iter().chain(others).collect()
+    runs_csv.into_iter().chain(others).collect()
 }
 
 /// What can be drawn besides the columns of runs.csv: names, units, meanings.

@@ -1,6 +1,6 @@
 //! What an axis of a plot shows: a column of the results, or the product of several.
 
-use crate::table::columns;
+use crate::table::axis_title::{axis_title, names};
 use crate::table::runs_csv::Table;
 
 /// A column, or several with "*" between them, such as "patches*local_shots".
@@ -37,44 +37,20 @@ impl<'a> Measure<'a> {
 
     /// Its name for people, without units.
     pub fn words(&self) -> String {
-        let words = self.0.iter().map(|column| words(column)).collect::<Vec<_>>().join(" × ");
-        let mut letters = words.chars();
-        let first = letters.next().into_iter().flat_map(char::to_uppercase);
-        first.chain(letters).collect()
+        capital(&names(&self.0))
     }
 
-    /// Its name with its unit: the cells' own, or the one that the columns are explained with. A count and a
-    /// number need none.
-    pub fn with_unit(&self, of_cells: &str) -> String {
-        let units: Vec<&str> = self.0.iter().filter_map(|column| unit(column)).collect();
-        let unit = if of_cells.is_empty() { units.join(" × ") } else { of_cells.to_owned() };
-        let words = self.words();
-        if unit.is_empty() { words } else { format!("{words} ({unit})") }
+    /// Its name with its unit, which may be that of its cells.
+    pub fn title(&self, unit_of_cells: &str) -> String {
+        capital(&axis_title(&self.0, unit_of_cells))
     }
 }
 
-/// The unit of a column that is shown beside its name.
-fn unit(column: &str) -> Option<&'static str> {
-    let by_name = || column.ends_with("_s").then_some("s");
-    columns::unit(column)
-        .or_else(by_name)
-        .filter(|unit| !["count", "number", "text"].contains(unit))
-}
-
-/// A column's name for people: without the field that holds it, and without its unit.
-fn words(column: &str) -> String {
-    let name = column.rsplit('.').next().unwrap_or(column);
-    match column {
-        "speed_up" => return "speed-up".to_owned(),
-        "paper_speed_up" => return "paper's speed-up".to_owned(),
-        _ => {}
-    }
-    let words = name.strip_suffix("_s").unwrap_or(name).replace('_', " ");
-    match column.split_once('.') {
-        Some(("host", _)) => format!("host {}", words.replace("cpu", "CPU")),
-        Some(("operations", _)) => format!("{words}s counted"),
-        _ => words,
-    }
+/// Text with a capital first letter.
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().into_iter().flat_map(char::to_uppercase);
+    first.chain(letters).collect()
 }
 
 #[cfg(test)]
@@ -95,7 +71,7 @@ mod tests {
 
     #[test]
     fn names_are_told_in_words() {
-        let label = |name| Measure::of(name).with_unit("");
+        let label = |name| Measure::of(name).title("");
         assert_eq!(label("time_s"), "Time (s)");
         assert_eq!(label("speed_up"), "Speed-up (ratio)");
         assert_eq!(label("messages"), "Messages");

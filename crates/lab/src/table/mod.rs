@@ -1,5 +1,6 @@
 //! The table of results: its columns, and what is read from it.
 
+pub mod axis_title; // Titles of axes, with units.
 pub mod cheapest; // The cheapest run below an error.
 pub mod column; // A column of runs.csv, and what its cells are made of.
 pub mod columns; // All columns of runs.csv, and what each is.
