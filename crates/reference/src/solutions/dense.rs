@@ -35,6 +35,10 @@ impl Solution {
     }
 }
 
+/// Patches of less than this share of the mean area need not be as accurate as others: their light does not count,
+/// and the form factors of slivers along an edge would take most of the time.
+const SLIVER: f64 = 1e-3;
+
 impl Dense {
     /// Form factors whose errors add up to about `tolerance` for each patch, more where the quadrature
     /// reached its limit of cells. Calls `done` after each patch.
@@ -46,10 +50,12 @@ impl Dense {
         done: impl Fn() + Sync,
     ) -> Dense {
         let all: f64 = patches.areas.iter().sum();
+        let least = SLIVER * all / patches.count() as f64;
         let exchange = |from: usize, to: usize| {
             let pair = Pair::new(scene, &patches.surfaces[from], &patches.surfaces[to]);
             // Half of the tolerance is shared by area, half by form factor.
-            let absolute = tolerance * patches.areas[from] * patches.areas[to] / all;
+            let area = |patch: usize| patches.areas[patch].max(least);
+            let absolute = tolerance * area(from) * area(to) / all;
             let tolerance = Tolerance { absolute, relative: tolerance };
             pair.map_or(Estimate::default(), |pair| pair.exchange(tolerance))
         };
