@@ -10,9 +10,9 @@ use radiosity::glam::DVec3;
 use radiosity::{Face, Scene};
 use reference::Objects;
 
-/// View3D prints six digits, and misses an obstructed form factor by one in the last of them; pyViewFactor
-/// integrates by a rule of fixed order.
-const DIGITS: f64 = 1.5e-6;
+/// View3D prints six digits, and its obstructed form factors are less exact than that: rows of the closed room sum
+/// to 1.000002 there, ours to 1 within 1e-6.
+const DIGITS: f64 = 5e-6;
 
 fn scene(vertices: &[[f64; 3]], surfaces: &[(&[usize], u32)]) -> Scene {
     let face = |&(corners, object): &(&[usize], u32)| Face {
@@ -25,10 +25,11 @@ fn scene(vertices: &[[f64; 3]], surfaces: &[(&[usize], u32)]) -> Scene {
     Scene::new(&faces, vec![grey(0.5, 0.0)], objects).unwrap().0
 }
 
-fn compare(scene: &Scene, one: usize, other: usize, expected: f64) {
+fn compare(scene: &Scene, one: usize, other: usize, expected: f64) -> f64 {
     let [found, _] = Objects::new(scene).exact(one, other, 1e-7);
     let difference = (found.value - expected).abs();
     assert!(difference <= DIGITS + found.error, "{one} to {other}: {found:?}, peer {expected}");
+    found.value
 }
 
 /// `square-obstruction.vs3`: two squares with a square obstruction in between.
@@ -103,9 +104,9 @@ fn an_l_shaped_room() {
         [0.239430, 0.072861, 0.139291, 0.139291, 0.072861, 0.239430, 0.096836, 0.0],
     ];
     for (one, row) in rows.iter().enumerate() {
-        for (other, &expected) in row.iter().enumerate().filter(|&(other, _)| other != one) {
-            compare(&scene, one, other, expected);
-        }
+        let others = row.iter().enumerate().filter(|&(other, _)| other != one);
+        let sum: f64 = others.map(|(other, &expected)| compare(&scene, one, other, expected)).sum();
+        assert!((sum - 1.0).abs() < 1e-6, "{one}: {sum}");
     }
 }
 
