@@ -119,46 +119,26 @@ enum FormatArgument {
 /// Runs the experiment; returns the table of its results.
 pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     let (clock, provenance) = (HostClock::start(), provenance());
-    let network = network(arguments)?;
-    let set: Vec<String> = arguments.set.iter().cloned().chain(network).collect();
-    let short = arguments.network.iter().map(|model| format!("network={model}"));
-    let changes: Vec<String> = arguments.set.iter().cloned().chain(short).collect();
     let threads = arguments.threads.count();
     let memory = arguments.memory.unwrap_or_else(lab::half_of_free_memory);
-    let meant = |exit: Exit| not_an_experiment(&arguments.experiment).map_or(exit, Exit::bad_input);
-    let found = find_here(&FileKind::EXPERIMENTS, &arguments.experiment);
-    let file = found.map_err(|message| meant(Exit::bad_input(message)))?.path;
+    let network = network(arguments)?;
+    let file = experiment_file(arguments)?;
+    let changes = changes(arguments);
     let name = file.file_stem().unwrap_or_default().to_string_lossy();
     let out = arguments.out.clone().unwrap_or_else(|| folder_for(&name, &changes));
     for folder in [out.join(".partial"), out.clone()] {
         check_writable(&folder).map_err(Exit::bad_input)?;
     }
-    let pilots = Pilots::new(arguments.quiet);
-    let on_pilot = |scene: &str, target, runs| pilots.update(scene, target, runs);
-    let preparing = Preparing { threads, memory, finding: true, on_pilot: &on_pilot };
-    let plan = Plan::read(&file, &set, &preparing).map_err(|fault| meant(fault.into()))?;
-    let plan = Arc::new(plan.changed(&changes));
-    pilots.end();
-    if !arguments.quiet {
-        print_warnings(&plan.warnings);
-    }
-    arguments.viewer.check(&plan).map_err(Exit::bad_input)?;
-    let place = out.display();
-    let traces = traces(arguments)?;
-    if arguments.live.asked() && arguments.on == OnArgument::Threads {
-        return Err(Exit::bad_input(needs_simulation("--live")));
-    }
-    let shot_files = arguments.keep_shots.as_deref().map(open_shot_files).transpose()?;
-    let live = arguments.live.start(&plan)?;
+    let set: Vec<String> = arguments.set.iter().cloned().chain(network).collect();
+    let plan = Arc::new(read_plan(arguments, &file, &set, (threads, memory))?.changed(&changes));
     let on = match arguments.on {
         OnArgument::Simulation => On::Simulation,
         OnArgument::Threads => On::Threads,
     };
-    if let Some(obstacle) = obstacle(&plan, on, &out).filter(|_| !arguments.replace) {
-        let message = format!("{obstacle}, another folder by --output, or --replace");
-        return Err(Exit::bad_input(message));
-    }
-    lab::check_targets(&plan, &out).map_err(Exit::bad_input)?;
+    check_before(arguments, &plan, on, &out)?;
+    let traces = traces(arguments)?;
+    let shot_files = arguments.keep_shots.as_deref().map(open_shot_files).transpose()?;
+    let live = arguments.live.start(&plan)?;
     let claim = Claim::of(&out).map_err(Exit::bad_input)?;
 
     let viewing = arguments.viewer.clone();
@@ -186,7 +166,7 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
     if let Some(trouble) = options.shot_files.and_then(|files| files.trouble()) {
         output += &format!("Shots could not be kept in {trouble}.\n");
     }
-    output += &format!("Results are in {place}.\n");
+    output += &format!("Results are in {}.\n", out.display());
     if arguments.quiet {
         output.clear();
     } else {
@@ -204,6 +184,55 @@ pub fn run(arguments: &Arguments) -> Result<String, Exit> {
             Err(Exit { code: 1, output, message })
         }
     }
+}
+
+/// The experiment file that the arguments mean.
+fn experiment_file(arguments: &Arguments) -> Result<PathBuf, Exit> {
+    let found = find_here(&FileKind::EXPERIMENTS, &arguments.experiment);
+    found.map(|found| found.path).map_err(|message| meant(arguments, Exit::bad_input(message)))
+}
+
+/// How it failed; or the command that was meant, if the argument names a scene or a machine.
+fn meant(arguments: &Arguments, exit: Exit) -> Exit {
+    not_an_experiment(&arguments.experiment).map_or(exit, Exit::bad_input)
+}
+
+/// What `--set` and `--network` change, as in the name of the results.
+fn changes(arguments: &Arguments) -> Vec<String> {
+    let network = arguments.network.iter().map(|model| format!("network={model}"));
+    arguments.set.iter().cloned().chain(network).collect()
+}
+
+/// Reads the experiment, searches the settings that it leaves open, and prints the warnings of its scenes.
+fn read_plan(
+    arguments: &Arguments,
+    file: &Path,
+    set: &[String],
+    (threads, memory): (usize, usize),
+) -> Result<Plan, Exit> {
+    let pilots = Pilots::new(arguments.quiet);
+    let on_pilot = |scene: &str, target, runs| pilots.update(scene, target, runs);
+    let preparing = Preparing { threads, memory, finding: true, on_pilot: &on_pilot };
+    let plan = Plan::read(file, set, &preparing).map_err(|fault| meant(arguments, fault.into()))?;
+    pilots.end();
+    if !arguments.quiet {
+        print_warnings(&plan.warnings);
+    }
+    Ok(plan)
+}
+
+/// Checks, before anything is made, what could stop the runs or spoil what is in the folder of results.
+fn check_before(arguments: &Arguments, plan: &Plan, on: On, out: &Path) -> Result<(), Exit> {
+    arguments.viewer.check(plan).map_err(Exit::bad_input)?;
+    let asked = [(arguments.trace.is_some(), "--trace"), (arguments.live.asked(), "--live")];
+    if let Some((_, argument)) = asked.iter().find(|(asked, _)| *asked && on == On::Threads) {
+        return Err(Exit::bad_input(needs_simulation(argument)));
+    }
+    if let Some(obstacle) = obstacle(plan, on, out).filter(|_| !arguments.replace) {
+        let message = format!("{obstacle}, another folder by --output, or --replace");
+        return Err(Exit::bad_input(message));
+    }
+    lab::check_targets(plan, out).map_err(Exit::bad_input)
 }
 
 /// The `--set` argument for which `--network` is short, if it is given.
@@ -233,9 +262,6 @@ fn needs_simulation(argument: &str) -> String {
 /// Where and how to write traces, if the arguments ask for them; makes the folder.
 fn traces(arguments: &Arguments) -> Result<Option<Traces>, Exit> {
     let Some(folder) = arguments.trace.clone() else { return Ok(None) };
-    if arguments.on == OnArgument::Threads {
-        return Err(Exit::bad_input(needs_simulation("--trace")));
-    }
     make_folder(&folder, "traces")?;
     check_writable(&folder).map_err(Exit::bad_input)?;
     let format = match arguments.trace_format {

@@ -136,7 +136,7 @@ fn draw(table: &Table, model: NetworkModel, out: &Path) -> Result<(), Exit> {
         let title = format!("{title}, model {model}");
         let plot = json!({ "x": "bytes", "y": y, "title": title, "log_x": true, "log_y": true });
         let plot: Plot = serde_json::from_value(plot).map_err(Exit::failure)?;
-        write(&out.join(format!("{}.svg", plot.stem())), lab::svg(table, &plot))?;
+        write(&out.join(plot.file_name()), lab::svg(table, &plot))?;
     }
     Ok(())
 }

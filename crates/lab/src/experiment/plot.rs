@@ -66,6 +66,11 @@ impl Plot {
         self.file.clone().unwrap_or_else(stem)
     }
 
+    /// Name of the SVG file.
+    pub fn file_name(&self) -> String {
+        self.stem() + ".svg"
+    }
+
     /// Whether the horizontal and the vertical axis are logarithmic.
     pub fn logarithmic(&self) -> [bool; 2] {
         let both = self.power_law || self.pareto;

@@ -46,7 +46,7 @@ impl Outline {
             runs: sweep.points.len(),
             swept: axes.collect(),
             settings: settings(&first, &sweep),
-            plots: first.plots.iter().map(|plot| (drawn(plot), plot.stem() + ".svg")).collect(),
+            plots: first.plots.iter().map(|plot| (drawn(plot), plot.file_name())).collect(),
         })
     }
 }

@@ -7,11 +7,11 @@ use config::{Document, short_name};
 use serde_json::{Map, Value};
 
 use crate::engine::simulator::On;
-use crate::experiment::plot::Plot;
 use crate::files::digest::sha256;
 use crate::files::file;
 use crate::planning::plan::Plan;
-use crate::results::{host_times, operations, origin, repeats_csv};
+use crate::results::folder::figures_of;
+use crate::results::{host_times, operations, origin};
 
 /// Fields of an experiment that decide no figure.
 const PRESENTATION: [&str; 3] = ["$schema", "title", "plots"];
@@ -72,13 +72,8 @@ pub fn obstacle(plan: &Plan, on: On, out: &Path) -> Option<String> {
 
 /// Names of the files with the figures of a plan's results: tables, drawings and report.
 fn drawn(plan: &Plan) -> impl Iterator<Item = String> {
-    let plots = serde_json::from_value::<Vec<Plot>>(plan.resolved["plots"].clone());
-    let plots = plots.unwrap_or_default();
-    let repeats =
-        plots.iter().any(|plot| plot.over.is_some()).then(|| repeats_csv::FILE.to_owned());
-    let drawings = plots.into_iter().map(|plot| format!("{}.svg", plot.stem()));
     let tables = ["runs.csv", operations::FILE, "report.html"].map(str::to_owned);
-    tables.into_iter().chain(repeats).chain(drawings)
+    tables.into_iter().chain(figures_of(&plan.plots))
 }
 
 /// How results with this manifest differ from those of a plan: the first value of their configurations that does,

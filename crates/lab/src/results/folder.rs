@@ -137,7 +137,7 @@ impl Results {
         let plots: Vec<Plot> = self.plots().into_iter().map(titled).collect();
         for plot in &plots {
             let svg = chart::svg(&table, &sweeps, plot, self.speed_up_base());
-            let name = format!("{}.svg", plot.stem());
+            let name = plot.file_name();
             file::write(&out.join(&name), svg.as_bytes())?;
             names.push(name);
             // The report is the same on every host.
@@ -191,11 +191,15 @@ impl Results {
 /// The files of the figures of the results with this manifest, and of their numbers; none if it cannot be read.
 fn figures(manifest: &Path) -> Vec<String> {
     let Ok(document) = Document::read(manifest) else { return Vec::new() };
-    let plots = read::<Vec<Plot>>(&document.value["experiment"]["plots"]).unwrap_or_default();
-    let stems = plots.iter().map(Plot::stem).filter(|stem| is_plain(stem));
-    let summary =
-        plots.iter().any(|plot| plot.over.is_some()).then(|| repeats_csv::FILE.to_owned());
-    stems.map(|stem| format!("{stem}.svg")).chain(summary).collect()
+    let mut plots = read::<Vec<Plot>>(&document.value["experiment"]["plots"]).unwrap_or_default();
+    plots.retain(|plot| is_plain(&plot.stem()));
+    figures_of(&plots).collect()
+}
+
+/// The files of these plots, and of their numbers.
+pub fn figures_of(plots: &[Plot]) -> impl Iterator<Item = String> {
+    let repeats = plots.iter().any(|plot| plot.over.is_some());
+    plots.iter().map(Plot::file_name).chain(repeats.then(|| repeats_csv::FILE.to_owned()))
 }
 
 /// Provenance of the results: everything that decides them, and nothing of the host.

@@ -7,7 +7,8 @@
 use std::collections::BTreeMap;
 
 use crate::planning::plan::{Plan, Run};
-use crate::run::runner::{Done, Event};
+use crate::run::runner::Event;
+use crate::run::shot_sum::Done;
 
 /// What is known of a run in advance.
 #[derive(Clone, Copy, Debug)]

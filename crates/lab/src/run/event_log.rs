@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 
 use crate::planning::plan::Plan;
 use crate::run::estimate::Known;
-use crate::run::runner::{Done, Event};
+use crate::run::runner::Event;
+use crate::run::shot_sum::Done;
 
 /// The lines of a plan: its threads, and each run as `run PROBLEM MACHINE PROCESSORS REUSES
 /// LIGHTS_ONLY PATCHES`.

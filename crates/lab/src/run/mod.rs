@@ -9,5 +9,6 @@ pub mod queue; // Which run is next.
 pub mod runner; // Worker threads that carry out a plan.
 pub mod saved; // Finished runs of an interrupted sweep.
 pub mod shot_files; // Kept shots in files.
+pub mod shot_sum; // What a run has done so far.
 pub mod traces; // Trace files of runs.
 pub mod viewing; // Which runs the report shows.

@@ -27,6 +27,7 @@ use crate::run::progress::{Counters, ProgressObserver};
 use crate::run::queue::{Queue, Task};
 use crate::run::saved::Saved;
 use crate::run::shot_files::ShotFiles;
+use crate::run::shot_sum::{Done, ShotSum};
 use crate::run::traces::Traces;
 use crate::run::viewing::Viewing;
 
@@ -54,19 +55,6 @@ pub struct Options {
 
 /// One shot in this number is reported: all threads report to the same watcher.
 const SHOTS_REPORTED: u64 = 64;
-
-/// What a run has done so far.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Done {
-    /// Sources shot, local and received.
-    pub shots: u64,
-    /// Power of the patches that it shot, over the emitted power: 1 when all lights are shot, more later.
-    pub power: f64,
-    /// Shots so far of all runs of its problem that were not in memory when they were asked for.
-    pub new: u64,
-    /// Host seconds for which all runs of its problem have waited for shots so far.
-    pub waited_s: f64,
-}
 
 /// Something that happened while a plan is carried out.
 #[derive(Clone, Copy, Debug)]
@@ -208,7 +196,8 @@ impl Shared<'_> {
             let Some(task) = held(&self.queue).take(|problem| self.kept_shots(problem)) else {
                 return;
             };
-            let shots = Arc::new(ShotSum::default());
+            let problem = &self.plan.problems[task.problem].problem;
+            let shots = Arc::new(ShotSum::new(problem, &self.meters[task.problem]));
             let answer = self.check_answer(&task);
             let clock = HostClock::start();
             (self.watch)(Event::Started { run: task.run });
@@ -229,7 +218,7 @@ impl Shared<'_> {
             }
             held(&self.queue).done(&task);
             if !found {
-                let done = self.done(&task, &shots);
+                let done = shots.done();
                 (self.watch)(Event::Finished { run, done });
             }
         }
@@ -248,11 +237,6 @@ impl Shared<'_> {
         endings.runs[run] = Some(ending);
         endings.host[run] = Some(host);
         stored
-    }
-
-    fn done(&self, task: &Task, shots: &ShotSum) -> Done {
-        let problem = &self.plan.problems[task.problem].problem;
-        shots.done(problem.emitted_power().element_sum(), &self.meters[task.problem])
     }
 
     fn kept_shots(&self, problem: usize) -> KeptShots {
@@ -294,12 +278,11 @@ impl Shared<'_> {
         let Prepared { problem, scene_bytes, .. } = &self.plan.problems[run.problem];
         let machine = &self.plan.machines[run.machine].machine;
         let (watch, index) = (Arc::clone(&self.watch), task.run);
-        let (shots, meter) = (Arc::clone(shots), Arc::clone(&self.meters[task.problem]));
-        let nothing_kept = Arc::new(KeptShots::new(0).measured(&meter));
-        let emitted = problem.emitted_power().element_sum();
+        let shots = Arc::clone(shots);
+        let nothing_kept = Arc::new(KeptShots::new(0).measured(&self.meters[task.problem]));
         let on_shot = Arc::new(move |source: &Source| {
             if shots.add(source).is_multiple_of(SHOTS_REPORTED) {
-                watch(Event::Shots { run: index, done: shots.done(emitted, &meter) });
+                watch(Event::Shots { run: index, done: shots.done() });
             }
         });
         let point = &run.point;
@@ -356,30 +339,6 @@ impl Shared<'_> {
             let report = move |counters| watch(Event::Counters { run: index, counters });
             Rc::new(RefCell::new(ProgressObserver::new(run, report))) as SharedObserver
         })
-    }
-}
-
-/// Shots of a run, and the power of those of patches, W.
-#[derive(Default)]
-struct ShotSum(Mutex<(u64, f64)>);
-
-impl ShotSum {
-    /// Adds the shot of a source; returns how many there are.
-    fn add(&self, source: &Source) -> u64 {
-        let mut sum = held(&self.0);
-        if source.is_local() && !source.emitter.is_of_a_wall() {
-            sum.1 += source.power().element_sum();
-        }
-        sum.0 += 1;
-        sum.0
-    }
-
-    /// What a run has done that made these shots, of a problem with this emitted power and this meter.
-    fn done(&self, emitted: f64, meter: &ShotMeter) -> Done {
-        let (shots, power) = *held(&self.0);
-        let power = if emitted > 0.0 { power / emitted } else { 0.0 };
-        let (new, waited_s) = meter.read();
-        Done { shots, power, new, waited_s }
     }
 }
 

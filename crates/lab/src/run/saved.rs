@@ -38,6 +38,7 @@ impl Saved {
         let point = Experiment {
             schema: None,
             title: String::new(),
+            speed_up_over: None,
             compare_with: None,
             plots: Vec::new(),
             ..run.point.clone()

@@ -64,7 +64,7 @@ impl Progress {
 
     /// Enter a shot of a source.
     pub fn shot(&self, source: &Source) {
-        if source.is_local() && !source.emitter.is_of_a_wall() {
+        if source.is_of_a_patch() {
             self.patch_shot(source.power());
         }
     }

@@ -25,6 +25,11 @@ impl Source {
         self.environment == self.emitter.environment
     }
 
+    /// Whether it is a patch that begins to shoot: neither handed on, nor a bin of a virtual wall.
+    pub fn is_of_a_patch(&self) -> bool {
+        self.is_local() && !self.emitter.is_of_a_wall()
+    }
+
     /// The power that it carries into its environment, W.
     pub fn power(&self) -> Rgb {
         self.emitter.power * self.form_factor
