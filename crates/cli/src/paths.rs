@@ -1,7 +1,9 @@
 //! The files that arguments name: files, folders, and patterns that the shell did not expand.
 
 use std::fs;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
+
+use glob::{MatchOptions, glob_with};
 
 /// The files that an argument means, in the order of their names. In place of a folder, the files in it
 /// that `wanted` accepts; a pattern has `*` or `?` in it.
@@ -37,23 +39,26 @@ fn files_of(folder: &Path, wanted: impl Fn(&Path) -> bool) -> Result<Vec<PathBuf
     Ok(files)
 }
 
-/// The paths that match a pattern, component by component.
+/// As in a shell, hidden names are matched only by patterns that begin with a dot.
+const AS_IN_A_SHELL: MatchOptions = MatchOptions {
+    case_sensitive: true,
+    require_literal_separator: true,
+    require_literal_leading_dot: true,
+};
+
+/// The paths that match a pattern, in the order of their names. `*` is any text and `?` any character of a name.
 fn expanded(pattern: &Path) -> Vec<PathBuf> {
-    let mut found = vec![PathBuf::new()];
-    for part in pattern.components() {
-        let text = part.as_os_str().to_string_lossy();
-        let next = |path: PathBuf| -> Vec<PathBuf> {
-            if !matches!(part, Component::Normal(_)) || !text.contains(['*', '?']) {
-                let path = path.join(part);
-                return if path.exists() { vec![path] } else { Vec::new() };
-            }
-            let here = if path == Path::new("") { Path::new(".") } else { &path };
-            let all = names(here).into_iter().filter(|name| matches(&text, name));
-            all.map(|name| path.join(name)).collect()
-        };
-        found = found.into_iter().flat_map(next).collect();
+    let found = glob_with(&plain(&pattern.to_string_lossy()), AS_IN_A_SHELL);
+    found.into_iter().flatten().flatten().collect()
+}
+
+/// The pattern without meanings that it does not have here: of brackets, and of several stars.
+fn plain(pattern: &str) -> String {
+    let mut plain = pattern.replace('[', "[[]");
+    while plain.contains("**") {
+        plain = plain.replace("**", "*");
     }
-    found
+    plain
 }
 
 /// The names in a folder, in order; none if it cannot be read.
@@ -65,37 +70,15 @@ fn names(folder: &Path) -> Vec<String> {
     names
 }
 
-/// Whether a name matches a pattern, in which `*` is any text and `?` is any character. As in a shell, hidden
-/// names are matched only by patterns that begin with a dot.
-fn matches(pattern: &str, name: &str) -> bool {
-    if name.starts_with('.') && !pattern.starts_with('.') {
-        return false;
-    }
-    let (pattern, name): (Vec<char>, Vec<char>) =
-        (pattern.chars().collect(), name.chars().collect());
-    let (mut p, mut n) = (0, 0);
-    // The last star, and where the text ends that it stands for so far.
-    let mut star: Option<(usize, usize)> = None;
-    while n < name.len() {
-        match pattern.get(p) {
-            Some('*') => {
-                star = Some((p, n));
-                p += 1;
-            }
-            Some(&c) if c == '?' || c == name[n] => (p, n) = (p + 1, n + 1),
-            _ => {
-                let Some((at, end)) = star else { return false };
-                star = Some((at, end + 1));
-                (p, n) = (at + 1, end + 1);
-            }
-        }
-    }
-    pattern[p..].iter().all(|&c| c == '*')
-}
-
 #[cfg(test)]
 mod tests {
-    use super::matches;
+    use glob::Pattern;
+
+    use super::{AS_IN_A_SHELL, plain};
+
+    fn matches(pattern: &str, name: &str) -> bool {
+        Pattern::new(&plain(pattern)).unwrap().matches_with(name, AS_IN_A_SHELL)
+    }
 
     #[test]
     fn patterns_match_as_in_a_shell() {
